@@ -1,0 +1,10 @@
+# Bullet in double precision: single precision breaks the contacts at a 0.1 ms step.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(BULLET_FLOAT64 REQUIRED IMPORTED_TARGET bullet-float64)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(BulletFloat64 REQUIRED_VARS BULLET_FLOAT64_LINK_LIBRARIES)
+if(NOT TARGET Bullet::float64)
+  add_library(Bullet::float64 INTERFACE IMPORTED)
+  target_link_libraries(Bullet::float64 INTERFACE PkgConfig::BULLET_FLOAT64)
+  target_compile_definitions(Bullet::float64 INTERFACE BT_USE_DOUBLE_PRECISION)
+endif()

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "messaging/validation.h"
+
+namespace fastball::messaging {
+
+/// What a transport must know of a generated LCM type to carry it without knowing it.
+struct MessageType {
+  int (*encodedSize)(const void* message);
+  int (*encode)(const void* message, void* buffer, int size);
+  int (*decode)(void* message, const void* buffer, int size);
+  std::shared_ptr<void> (*make)();
+  std::shared_ptr<const void> (*copy)(const void* message);
+  /// Why the message must not be acted on (not finite, out of range), or nothing.
+  std::optional<std::string> (*fault)(const void* message);
+  int64_t (*seq)(const void* message);
+};
+
+/// The one MessageType of the generated type T.
+template <class T>
+const MessageType& messageType() {
+  static const MessageType type{
+      [](const void* m) { return static_cast<const T*>(m)->getEncodedSize(); },
+      [](const void* m, void* buffer, int size) {
+        return static_cast<const T*>(m)->encode(buffer, 0, size);
+      },
+      [](void* m, const void* buffer, int size) {
+        return static_cast<T*>(m)->decode(buffer, 0, size);
+      },
+      []() -> std::shared_ptr<void> { return std::make_shared<T>(T{}); },
+      [](const void* m) -> std::shared_ptr<const void> {
+        return std::make_shared<T>(*static_cast<const T*>(m));
+      },
+      [](const void* m) { return fault(*static_cast<const T*>(m)); },
+      [](const void* m) { return static_cast<const T*>(m)->seq; },
+  };
+  return type;
+}
+
+}  // namespace fastball::messaging

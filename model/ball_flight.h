@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "model/ball_parameters.h"
+#include "model/target.h"
+
+namespace fastball::model {
+
+/// Position and velocity of the ball's centre in the world.
+struct BallState {
+  Eigen::Vector3d p_WBall = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d v_WBall = Eigen::Vector3d::Zero();  ///< [m/s]
+};
+
+/// a = g - k |v| v [m/s^2].
+Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W, double drag_per_metre, double gravity);
+
+/// The ball `duration` [s] later (Runge-Kutta 4, steps of at most 5 ms).
+BallState fly(const BallState& start, double duration, double drag_per_metre, double gravity);
+
+/// Where and when the ball's centre crosses the target plane from the robot's side.
+struct Landing {
+  double time = 0;                                  ///< [s] after the start
+  Eigen::Vector2d landing = Eigen::Vector2d::Zero();  ///< [m], plane coordinates
+  BallState state;                                  ///< at the crossing
+};
+/// Nothing if the plane is not crossed within `max_time` [s].
+std::optional<Landing> land(const BallState& start, const Target& target, double drag_per_metre, double gravity,
+                            double max_time = 3.0);
+
+}  // namespace fastball::model
