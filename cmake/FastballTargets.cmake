@@ -31,12 +31,14 @@ function(fastball_library name)
   fastball_settings(${name})
 endfunction()
 
-# fastball_program(name SOURCES ... LIBRARIES ...): an executable in build/bin.
+# fastball_program(name SOURCES ... LIBRARIES ...): an executable in build/bin, part of the target `programs`.
+add_custom_target(programs)
 function(fastball_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
   fastball_settings(${name})
+  add_dependencies(programs ${name})
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace fastball::logger {
+
+/// What a run was, for whoever reads its log later.
+struct RunRecord {
+  std::string version;
+  std::string command_line;
+  std::string config_path;
+  int64_t seed = 0;
+};
+
+/// Path of the record that belongs to a log: the log's path with ".run.json" appended.
+std::string runRecordPath(const std::string& log_path);
+
+/// Writes the record beside the log: version, command line, seed, host, start time, and the full text of the configuration
+/// file and of every file in its folder and below, so that the run can be repeated after they have changed.
+/// @throw std::invalid_argument if it cannot be written or the configuration cannot be read.
+void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_t start_utime);
+
+}  // namespace fastball::logger
