@@ -52,7 +52,8 @@ class LoggerNode : public messaging::Node {
 
   void shutDown() override {
     sayStatus();
-    endpoint_.drain();  // what has arrived, the status above included
+    while (endpoint_.drain() > 0) {  // what has arrived, the status above included
+    }
     writer_.flush();
   }
 

@@ -16,31 +16,35 @@ namespace fastball::messaging {
 struct ReceiveCounts {
   int64_t accepted = 0;
   int64_t invalid = 0;  ///< did not decode, broke its rule, or its handler threw
-  int64_t lost = 0;     ///< gaps in seq
-  int64_t repeated = 0; ///< seq not greater than the one before (a sender that restarted, or UDP order)
+  int64_t lost = 0;     ///< gaps in seq, where the channel has one sender
+  int64_t repeated =
+      0;  ///< seq not greater than the one before (a sender that restarted, or UDP order)
 };
 
-/// One node's door to the others: publish, subscribe, drain. LcmEndpoint goes over the network, LocalNetwork's endpoints
-/// go through memory; a node cannot tell which. One thread owns an endpoint. Handlers run inside drain() only.
+/// One node's door to the others: publish, subscribe, drain. LcmEndpoint goes over the network,
+/// LocalNetwork's endpoints go through memory; a node cannot tell which. One thread owns an
+/// endpoint. Handlers run inside drain() only.
 class Endpoint {
  public:
   virtual ~Endpoint() = default;
 
-  /// Sends a message. It is checked first: a message that breaks its rule (validation.h) or its channel's size limit is
-  /// a programming error of the sender and is counted in unsent() and not sent.
+  /// Sends a message. It is checked first: a message that breaks its rule (validation.h) or its
+  /// channel's size limit is a programming error of the sender and is counted in unsent() and not
+  /// sent.
   /// @return false if it was not sent.
   template <class T>
   bool publish(const Channel<T>& channel, const T& message) {
     return publishErased(channel.name, channel.max_bytes, &message, messageType<T>());
   }
 
-  /// Calls `handler` for every message of the channel that decodes to its full length and breaks no rule, in the order of
-  /// arrival. The queue is unlimited. A handler that throws std::exception counts its message as invalid.
+  /// Calls `handler` for every message of the channel that decodes to its full length and breaks no
+  /// rule, in the order of arrival. The queue is unlimited. A handler that throws std::exception
+  /// counts its message as invalid.
   template <class T>
   void subscribe(const Channel<T>& channel, std::function<void(const T&)> handler) {
-    subscribeErased(channel.name, messageType<T>(), [handler = std::move(handler)](const void* m) {
-      handler(*static_cast<const T*>(m));
-    });
+    subscribeErased(
+        channel.name, channel.one_sender, messageType<T>(),
+        [handler = std::move(handler)](const void* m) { handler(*static_cast<const T*>(m)); });
   }
 
   /// Hands over everything that has arrived, until nothing is left.
@@ -53,9 +57,13 @@ class Endpoint {
   virtual int64_t unsent() const = 0;
 
  protected:
-  virtual bool publishErased(const char* channel, std::size_t max_bytes, const void* message,
+  virtual bool publishErased(const char* channel,
+                             std::size_t max_bytes,
+                             const void* message,
                              const MessageType& type) = 0;
-  virtual void subscribeErased(const char* channel, const MessageType& type,
+  virtual void subscribeErased(const char* channel,
+                               bool one_sender,
+                               const MessageType& type,
                                std::function<void(const void*)> handler) = 0;
 };
 
@@ -63,7 +71,8 @@ class Endpoint {
 template <class T>
 class Publisher {
  public:
-  Publisher(Endpoint& endpoint, const Channel<T>& channel) : endpoint_(endpoint), channel_(channel) {}
+  Publisher(Endpoint& endpoint, const Channel<T>& channel)
+      : endpoint_(endpoint), channel_(channel) {}
   /// Sets message.seq and sends it. @return false if it was not sent.
   bool publish(T& message) {
     message.seq = next_seq_++;
@@ -92,7 +101,8 @@ class Latest {
   const T* get() const { return value_ ? &*value_ : nullptr; }
   /// The newest message if it has come since the last call, else null.
   const T* takeNew() {
-    if (!is_new_) return nullptr;
+    if (!is_new_)
+      return nullptr;
     is_new_ = false;
     return &*value_;
   }

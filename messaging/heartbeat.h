@@ -14,6 +14,9 @@ class Heartbeat {
   Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node);
   /// Call after every step(). `loop_us`: how long drain and step took, for the loop figures.
   void update(double loop_us);
+  /// The last words of a process. `failure`: the sentence it fails with, sent as state "failed";
+  /// empty: the node's own state.
+  void sayLast(const std::string& failure = "");
   /// Monotonic time [us] of the next heartbeat due.
   int64_t wakeUs() const { return next_us_; }
 

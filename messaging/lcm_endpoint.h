@@ -10,19 +10,28 @@ namespace fastball::messaging {
 
 inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-/// The URL with recv_buf_size=4194304 added where it names none: with the kernel's default, images are lost.
+/// The URL used when none is named: $FASTBALL_LCM_URL, else $LCM_DEFAULT_URL, else kDefaultLcmUrl.
+std::string defaultLcmUrl();
+
+/// The URL with recv_buf_size=4194304 added where it names none: with the kernel's default, images
+/// are lost.
 std::string withReceiveBuffer(const std::string& url);
 
-/// An endpoint over LCM 1.3.1, with that library's traps closed: URL with buffer size, start-up check, unlimited queues,
-/// full drain, decode to the last byte, exceptions kept inside handlers.
+/// An endpoint over LCM 1.3.1, with that library's traps closed: URL with buffer size, start-up
+/// check, unlimited queues, full drain, decode to the last byte, exceptions kept inside handlers.
 class LcmEndpoint : public Endpoint {
  public:
-  /// @throw std::runtime_error with one sentence that names the URL and how to mend it (no multicast route: the
-  ///   `ip route add` to give) if the URL does not parse or the network cannot carry it. Takes less than 1 s.
+  /// @throw std::invalid_argument if the URL does not parse.
+  /// @throw std::runtime_error with one sentence that names the URL and how to mend it (no
+  /// multicast route: the
+  ///   `ip route add` to give) if the network cannot carry it. Takes less than 1 s.
   explicit LcmEndpoint(const std::string& url);
   ~LcmEndpoint() override;
 
+  /// As Endpoint::drain(), but returns after kDrainLimit messages, so that a flood cannot keep the
+  /// node from its step.
   int drain() override;
+  static constexpr int kDrainLimit = 10000;
   const std::map<std::string, ReceiveCounts>& counts() const override;
   int64_t unsent() const override;
 
@@ -32,14 +41,19 @@ class LcmEndpoint : public Endpoint {
   /// Sends bytes as they are, unchecked: for replay and for tests with hostile bytes.
   bool publishBytes(const std::string& channel, const void* data, std::size_t size);
   /// Hears every channel, undecoded, with the receive time [us since 1970]: for the logger and spy.
-  using RawHandler =
-      std::function<void(const std::string& channel, const void* data, std::size_t size, int64_t utime)>;
+  /// A handler that throws makes drain() throw.
+  using RawHandler = std::function<
+      void(const std::string& channel, const void* data, std::size_t size, int64_t utime)>;
   void subscribeRaw(const std::string& channel_regex, RawHandler handler);
 
  protected:
-  bool publishErased(const char* channel, std::size_t max_bytes, const void* message,
+  bool publishErased(const char* channel,
+                     std::size_t max_bytes,
+                     const void* message,
                      const MessageType& type) override;
-  void subscribeErased(const char* channel, const MessageType& type,
+  void subscribeErased(const char* channel,
+                       bool one_sender,
+                       const MessageType& type,
                        std::function<void(const void*)> handler) override;
 
  private:

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <deque>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "messaging/endpoint.h"
 #include "messaging/heartbeat.h"
@@ -12,8 +10,9 @@
 
 namespace fastball::messaging {
 
-/// All nodes of an experiment in one process, wired through memory: no network, no threads, no wall time. Messages arrive in
-/// the order in which they were published. A publisher does not hear itself unless it subscribes.
+/// All nodes of an experiment in one process, wired through memory: no network, no threads, no wall
+/// time. Messages arrive in the order in which they were published. A publisher does not hear
+/// itself unless it subscribes.
 class LocalNetwork {
  public:
   explicit LocalNetwork(const Clock& clock);
@@ -22,9 +21,14 @@ class LocalNetwork {
   Endpoint& addEndpoint();
   /// Runs `node` on `endpoint`. Both must outlive run().
   void addNode(Node& node, Endpoint& endpoint);
-  /// Round after round: drain every endpoint, step every node, in the order of addNode; until `done()`, or until nothing
-  /// moves any more (no message, no heartbeat), which is returned as false.
+  /// Round after round: drain every endpoint, step every node, in the order of addNode (endpoints
+  /// without a node come last); until `done()`, or until nothing moves any more (no message, no
+  /// heartbeat, no node whose wake time has come), which is returned as false. A node that is
+  /// finished() is shut down and hears no more.
   bool run(const std::function<bool()>& done);
+  /// Earliest monotonic time [us] at which a node wants to be stepped, INT64_MAX: never. When run()
+  /// returns false, only the Clock can bring something new.
+  int64_t nextWakeUs() const;
 
  private:
   struct Impl;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "messaging/validation.h"
+#include "messaging/wire_lengths.h"
 
 namespace fastball::messaging {
 
@@ -13,6 +15,8 @@ namespace fastball::messaging {
 struct MessageType {
   int (*encodedSize)(const void* message);
   int (*encode)(const void* message, void* buffer, int size);
+  /// @return `size`, or a negative number if the bytes are not exactly one message of this type.
+  /// Any bytes are safe.
   int (*decode)(void* message, const void* buffer, int size);
   std::shared_ptr<void> (*make)();
   std::shared_ptr<const void> (*copy)(const void* message);
@@ -30,7 +34,11 @@ const MessageType& messageType() {
         return static_cast<const T*>(m)->encode(buffer, 0, size);
       },
       [](void* m, const void* buffer, int size) {
-        return static_cast<T*>(m)->decode(buffer, 0, size);
+        if (!lengthsFit<T>(buffer, size))
+          return -1;
+        // The generated code leaves the elements of an empty vector as they were.
+        *static_cast<T*>(m) = T{};
+        return static_cast<T*>(m)->decode(buffer, 0, size) == size ? size : -1;
       },
       []() -> std::shared_ptr<void> { return std::make_shared<T>(T{}); },
       [](const void* m) -> std::shared_ptr<const void> {
@@ -41,5 +49,12 @@ const MessageType& messageType() {
   };
   return type;
 }
+
+/// Why a sender must not send this message on this channel (it breaks its rule or the size limit),
+/// or nothing.
+std::optional<std::string> refusal(const char* channel,
+                                   std::size_t max_bytes,
+                                   const void* message,
+                                   const MessageType& type);
 
 }  // namespace fastball::messaging

@@ -15,8 +15,9 @@ struct NodeState {
   int64_t plan_id = 0;         ///< plan or request held, 0: none
 };
 
-/// One process of the experiment without its process: subscribes in its constructor, acts in step(). The runner (LCM loop, local
-/// network, or a test) drains the endpoint, calls step(), and says the HEARTBEAT.
+/// One process of the experiment without its process: subscribes in its constructor, acts in
+/// step(). The runner (LCM loop, local network, or a test) drains the endpoint, calls step(), and
+/// says the HEARTBEAT.
 class Node {
  public:
   virtual ~Node() = default;
@@ -27,7 +28,8 @@ class Node {
   /// Monotonic time [us] at which step() must be called even if no message comes; INT64_MAX: never.
   virtual int64_t wakeUs() const { return INT64_MAX; }
   virtual NodeState state() const = 0;
-  /// True when the process shall end by itself (for example after an unrecoverable error; state() says why).
+  /// True when the process shall end by itself (for example after an unrecoverable error; state()
+  /// says why).
   virtual bool finished() const { return false; }
   /// The last act before the process ends: a safe command, a flushed file.
   virtual void shutDown() {}

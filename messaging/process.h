@@ -9,7 +9,7 @@
 #include "messaging/lcm_endpoint.h"
 #include "messaging/node.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own
 class App;
 }
 
@@ -30,18 +30,25 @@ struct ProcessOptions {
   double duration_s = 0;  ///< end after this wall time, 0: run until told to stop
 };
 
-/// Runs a node over LCM until SIGINT or SIGTERM, node.finished(), or duration_s: waits on the file descriptor until a message
-/// comes or a wake time is reached, drains, steps, says the HEARTBEAT. Ends with node.shutDown() and a last HEARTBEAT.
+/// Runs a node over LCM until SIGINT or SIGTERM, node.finished(), or duration_s: waits on the file
+/// descriptor until a message comes or a wake time is reached, drains, steps, says the HEARTBEAT.
+/// Ends with node.shutDown() and a last HEARTBEAT.
 /// @return kExitDone, or kExitFailed if the node finished in state "failed".
 int runOverLcm(Node& node, LcmEndpoint& endpoint, const Clock& clock, double duration_s = 0);
 
-/// The main() of every process: parses flags (CLI11; `--lcm-url --config --realtime --verbose --duration --version`),
-/// connects, prints one line (name, version, URL), builds the node, runs it, and turns exceptions into one sentence on stderr
-/// and an exit status (2 for std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1).
-using MakeNode = std::function<std::unique_ptr<Node>(LcmEndpoint&, const Clock&, const ProcessOptions&)>;
-/// Adds a process's own flags.
+/// The main() of every process: parses flags (CLI11; `--lcm-url --config --realtime --verbose
+/// --duration --version`), connects, prints one line (name, version, URL), builds the node, runs
+/// it, and turns exceptions into one sentence on stderr and an exit status (2 for
+/// std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1).
+using MakeNode =
+    std::function<std::unique_ptr<Node>(LcmEndpoint&, const Clock&, const ProcessOptions&)>;
+/// Adds a process's own flags, read into variables that its MakeNode captures.
 using AddFlags = std::function<void(CLI::App&)>;
-int processMain(int argc, char** argv, const std::string& name, const std::string& description,
-                const MakeNode& make_node, const AddFlags& add_flags = {});
+int processMain(int argc,
+                char** argv,
+                const std::string& name,
+                const std::string& description,
+                const MakeNode& make_node,
+                const AddFlags& add_flags = {});
 
 }  // namespace fastball::messaging

@@ -1,13 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "lcmtypes/fastball_types.h"
 
-/// One rule for each message: every number finite, every enumeration and length in range. A message that breaks
-/// its rule is counted and dropped by the receiver, and never leaves a sender.
+/// One rule for each message: every number finite, every enumeration and length in range. A message
+/// that breaks its rule is counted and dropped by the receiver, and never leaves a sender.
 namespace fastball::messaging {
+
+/// Longest name in a message (strategy, channel, state, ...) [bytes].
+inline constexpr std::size_t kNameBytes = 64;
+/// Longest sentence in a message (detail, reason, path, ...) [bytes]: with it, every control
+/// message fits one frame.
+inline constexpr std::size_t kSentenceBytes = 800;
+/// Cuts a sentence at `limit` bytes, between UTF-8 characters; what is cut ends in "...".
+std::string shortened(std::string sentence, std::size_t limit = kSentenceBytes);
 
 /// @return why the message must not be acted on ("ARM_STATE: q[2] is nan"), or nothing.
 std::optional<std::string> fault(const arm_state_t& message);

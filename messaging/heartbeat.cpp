@@ -1,0 +1,79 @@
+#include "messaging/heartbeat.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "messaging/version.h"
+
+namespace fastball::messaging {
+namespace {
+
+constexpr int64_t kPeriodUs = 1'000'000;
+
+std::string hostName() {
+  std::array<char, kNameBytes + 1> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0')
+    return "unknown";
+  return name.data();
+}
+
+bool sameWords(const NodeState& a, const NodeState& b) {
+  return a.state == b.state && a.detail == b.detail && a.plan_id == b.plan_id;
+}
+
+}  // namespace
+
+Heartbeat::Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node)
+    : endpoint_(endpoint), clock_(clock), node_(node), publisher_(endpoint, kHeartbeat) {
+  message_.name = node.name();
+  message_.host = hostName();
+  message_.pid = getpid();
+  message_.version = version();
+}
+
+void Heartbeat::update(double loop_us) {
+  loop_sum_us_ += loop_us;
+  loop_max_us_ = std::max(loop_max_us_, loop_us);
+  ++loops_;
+  const int64_t now_us = clock_.monotonicUs();
+  const bool due = now_us >= next_us_;
+  NodeState state = node_.state();
+  if (!due && sameWords(state, said_))
+    return;
+  said_ = std::move(state);
+  say();
+  if (!due)
+    return;
+  next_us_ = now_us + kPeriodUs;
+  loop_sum_us_ = loop_max_us_ = 0;
+  loops_ = 0;
+}
+
+void Heartbeat::sayLast(const std::string& failure) {
+  said_ = node_.state();
+  if (!failure.empty()) {
+    said_.state = "failed";
+    said_.detail = failure;
+  }
+  say();
+}
+
+void Heartbeat::say() {
+  message_.utime = clock_.wallUs();
+  message_.state = shortened(said_.state, kNameBytes);
+  message_.detail = shortened(said_.detail);
+  message_.plan_id = said_.plan_id;
+  message_.received = message_.lost = message_.invalid = 0;
+  for (const auto& [channel, counts] : endpoint_.counts()) {
+    message_.received += counts.accepted;
+    message_.lost += counts.lost;
+    message_.invalid += counts.invalid;
+  }
+  message_.loop_mean_us = loops_ > 0 ? loop_sum_us_ / static_cast<double>(loops_) : 0;
+  message_.loop_max_us = loop_max_us_;
+  publisher_.publish(message_);
+}
+
+}  // namespace fastball::messaging
