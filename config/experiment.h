@@ -10,7 +10,8 @@
 
 namespace fastball::config {
 
-/// What more than one process must know: the arm, the hand, the ball, where the net hangs, where the arm rests.
+/// What more than one process must know: the arm, the hand, the ball, where the net hangs, where
+/// the arm rests.
 struct Experiment {
   std::string path;
   model::ArmParameters arm;
@@ -20,16 +21,18 @@ struct Experiment {
   Eigen::Vector4d q_rest;  ///< [rad], where the arm rests before a throw
 };
 
-/// Reads the shared part of an experiment file (keys arm, hand, ball: file names; target, rest: maps).
-/// Each process reads its own section (keys planner, controller, hand_server, simulation, cameras, tracker) with processSection().
+/// Reads the shared part of an experiment file (keys arm, hand, ball: file names; target, rest:
+/// maps). Each process reads its own section (keys planner, controller, hand_server, simulation,
+/// cameras, tracker) with processSection().
 /// @throw ConfigError
 Experiment loadExperiment(const std::string& path);
 
-/// The process's own section of the experiment file; every other top-level key is known and left alone, an unknown one is an error.
+/// The process's own section of the experiment file; every other top-level key is known and left
+/// alone, an unknown one is an error.
 Section processSection(const std::string& path, const std::string& process);
 
-/// The experiment file used when none is named: $FASTBALL_CONFIG, else config/experiment.yaml of the source tree that the
-/// program was built from, else the installed one.
+/// The experiment file used when none is named: $FASTBALL_CONFIG, else config/experiment.yaml of
+/// the source tree that the program was built from, else the installed one.
 std::string defaultExperimentPath();
 
 }  // namespace fastball::config

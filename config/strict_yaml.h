@@ -24,9 +24,10 @@ inline constexpr Range kPositive{std::numeric_limits<double>::min(),
                                  std::numeric_limits<double>::infinity()};
 inline constexpr Range kNonNegative{0.0, std::numeric_limits<double>::infinity()};
 
-/// One map of a YAML file, read strictly: every key that the file gives must be asked for before finish(), every number is
-/// finite and inside its range. A value may be given plainly or as {value: ..., unit: ..., source: ...}; unit and source are
-/// for the reader. All functions throw ConfigError.
+/// One map of a YAML file, read strictly: every key that the file gives must be asked for before
+/// finish(), every number is finite and inside its range. A value may be given plainly or as
+/// {value: ..., unit: ..., source: ...}; unit and source are for the reader. All functions throw
+/// ConfigError.
 class Section {
  public:
   /// Reads the file; its top level must be a map.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 
 #include "model/arm_parameters.h"
 
@@ -11,9 +12,9 @@ using Vector4 = Eigen::Vector4d;
 using Matrix4 = Eigen::Matrix4d;
 using Jacobian = Eigen::Matrix<double, 3, kArmJoints>;
 
-/// The 4-DOF WAM as rigid bodies in fixed-size Eigen: no function allocates or throws. World W: origin at the shoulder centre,
-/// x forward, y left, z up; zero pose: arm straight up. Tool frame T: on the tool plate, axes of DH frame 4 (z along the
-/// forearm, away from the elbow).
+/// The 4-DOF WAM as rigid bodies in fixed-size Eigen: no function allocates or throws. World W:
+/// origin at the shoulder centre, x forward, y left, z up; zero pose: arm straight up. Tool frame
+/// T: on the tool plate, axes of DH frame 4 (z along the forearm, away from the elbow).
 class Arm {
  public:
   /// @param payload what the tool plate carries (hand and ball), in frame T.
@@ -32,7 +33,9 @@ class Arm {
   /// Rotational Jacobian of the tool frame: w_WT = J qd.
   Jacobian rotationJacobian(const Vector4& q) const;
   /// Acceleration [m/s^2] of that point: J qdd + dJ/dt qd.
-  Eigen::Vector3d pointAcceleration(const Vector4& q, const Vector4& qd, const Vector4& qdd,
+  Eigen::Vector3d pointAcceleration(const Vector4& q,
+                                    const Vector4& qd,
+                                    const Vector4& qdd,
                                     const Eigen::Vector3d& p_TP) const;
 
   /// Joint torques [N m] for a motion, Newton-Euler, drive inertia included, friction not.
@@ -49,12 +52,27 @@ class Arm {
   /// Largest ratio of speed to limit over joints and differential; 1 is at the limit.
   double speedRatio(const Vector4& qd) const;
   double torqueRatio(const Vector4& tau) const;
-  /// tau scaled into the limits: joints 1 and 4 clipped, the pair (2, 3) shrunk along its own direction.
+  /// tau scaled into the limits: joints 1 and 4 clipped, the pair (2, 3) shrunk along its own
+  /// direction.
   Vector4 clipTorque(const Vector4& tau) const;
 
  private:
+  /// What does not change with the pose, all in DH frame i.
+  struct Link {
+    double cos_alpha = 1, sin_alpha = 0;
+    Eigen::Vector3d axis;  ///< of joint i (z of frame i-1)
+    Eigen::Vector3d p;     ///< [m], origin of frame i from that of frame i-1
+    double mass = 0;       ///< [kg], the last link carries the payload
+    Eigen::Vector3d h;     ///< [kg m], mass times centre of mass
+    Eigen::Matrix3d I;     ///< [kg m^2], about the origin of frame i
+  };
+  struct Rotation;
+  struct Frames;
+  std::array<Rotation, kArmJoints> rotations(const Vector4& q) const;
+  Frames frames(const Vector4& q) const;
+
   ArmParameters parameters_;
-  std::array<RigidBody, kArmJoints> bodies_;  ///< links with the payload lumped into the last
+  std::array<Link, kArmJoints> links_;
 };
 
 }  // namespace fastball::model

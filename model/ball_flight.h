@@ -15,19 +15,24 @@ struct BallState {
 };
 
 /// a = g - k |v| v [m/s^2].
-Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W, double drag_per_metre, double gravity);
+Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W,
+                                   double drag_per_metre,
+                                   double gravity);
 
 /// The ball `duration` [s] later (Runge-Kutta 4, steps of at most 5 ms).
 BallState fly(const BallState& start, double duration, double drag_per_metre, double gravity);
 
 /// Where and when the ball's centre crosses the target plane from the robot's side.
 struct Landing {
-  double time = 0;                                  ///< [s] after the start
+  double time = 0;                                    ///< [s] after the start
   Eigen::Vector2d landing = Eigen::Vector2d::Zero();  ///< [m], plane coordinates
-  BallState state;                                  ///< at the crossing
+  BallState state;                                    ///< at the crossing
 };
 /// Nothing if the plane is not crossed within `max_time` [s].
-std::optional<Landing> land(const BallState& start, const Target& target, double drag_per_metre, double gravity,
+std::optional<Landing> land(const BallState& start,
+                            const Target& target,
+                            double drag_per_metre,
+                            double gravity,
                             double max_time = 3.0);
 
 }  // namespace fastball::model

@@ -4,15 +4,15 @@ namespace fastball::model {
 
 /// The urethane ball and how a finger feels on it; config/ball.yaml, with the source of every number there.
 struct BallParameters {
-  double radius = 0;            ///< a [m]
-  double mass = 0;              ///< m [kg]
-  double drag_coefficient = 0;  ///< of a sphere
-  double air_density = 0;       ///< [kg/m^3]
-  double youngs_modulus = 0;    ///< E [Pa] of Eq. (27)
-  double damping_ratio = 0;     ///< zeta: damping force 2 zeta sqrt(k m) dy/dt with k = dF/dy
-  double friction = 0;          ///< Coulomb mu between finger and ball
-  double bristle_stiffness = 0; ///< [N/m], tangential
-  double bristle_damping = 0;   ///< [N s/m], tangential
+  double radius = 0;             ///< a [m]
+  double mass = 0;               ///< m [kg]
+  double drag_coefficient = 0;   ///< of a sphere
+  double air_density = 0;        ///< [kg/m^3]
+  double youngs_modulus = 0;     ///< E [Pa] of Eq. (27)
+  double damping_ratio = 0;      ///< zeta: damping force 2 zeta sqrt(k m) dy/dt with k = dF/dy
+  double friction = 0;           ///< Coulomb mu between finger and ball
+  double bristle_stiffness = 0;  ///< [N/m], tangential
+  double bristle_damping = 0;    ///< [N s/m], tangential
 
   /// k of a = g - k |v| v [1/m].
   double dragPerMetre() const {

@@ -17,8 +17,9 @@ struct Segment {
 };
 
 /// Kinematics of the hand: where the phalanges are for given joint angles, and which joint angles put a finger where.
-/// A finger flexes in its own plane, through the z axis of H when its spread is zero. Proximal angle 0: the proximal phalanx
-/// is parallel to z; positive angles close towards the z axis. The distal angle is relative to the proximal phalanx.
+/// A finger flexes in its own plane, through the z axis of H when its spread is zero; a positive spread turns that plane about
+/// +z through the finger's base. Proximal angle 0: the proximal phalanx is parallel to z; positive angles close towards the z
+/// axis. The distal angle is relative to the proximal phalanx.
 class Hand {
  public:
   explicit Hand(const HandParameters& parameters);
@@ -29,13 +30,18 @@ class Hand {
   /// Axes of the proximal and the distal phalanx in H.
   std::array<Segment, 2> phalanges(Finger finger, const HandVector& q) const;
   /// Joint angles of one finger (spread, proximal, distal; the thumb's spread is 0) that hold its distal phalanx parallel to z,
-  /// its axis `distance` [m] from the z axis of H.
+  /// its axis `distance` [m] from the z axis of H on the finger's own side.
+  /// @throw std::invalid_argument if the proximal phalanx is too short for that.
   Eigen::Vector3d parallelFinger(Finger finger, double distance) const;
   /// All joints of the hand: wrist as given, each finger's distal phalanx parallel to z at its distance [m].
-  HandVector posture(double roll, double flexion, const std::array<double, kFingers>& distances) const;
+  HandVector posture(double roll,
+                     double flexion,
+                     const std::array<double, kFingers>& distances) const;
   /// Joint torques [N m] (spread, proximal, distal) that balance `force_H` [N] applied BY the finger at point p_H of its
-  /// distal phalanx.
-  Eigen::Vector3d fingerTorque(Finger finger, const HandVector& q, const Eigen::Vector3d& p_H,
+  /// distal phalanx: transposed Jacobian times force. The thumb's first entry is 0.
+  Eigen::Vector3d fingerTorque(Finger finger,
+                               const HandVector& q,
+                               const Eigen::Vector3d& p_H,
                                const Eigen::Vector3d& force_H) const;
   /// First joint index of a finger's flexion (proximal); the distal one follows, a spread joint precedes it.
   static int proximalJoint(Finger finger);

@@ -11,10 +11,10 @@ struct BaseValue {
 
 /// alpha sin(omega t + phi) + c between t_s and t_e, where its speed is zero (Eqs. 10, 12, 14); constant before and after.
 struct SinBase {
-  double alpha = 0;  ///< [rad]
-  double omega = 0;  ///< [rad/s], positive
-  double phi = 0;    ///< [rad]
-  double c = 0;      ///< [rad]
+  double alpha = 0;      ///< [rad]
+  double omega = 0;      ///< [rad/s], positive
+  double phi = 0;        ///< [rad]
+  double c = 0;          ///< [rad]
   double start() const;  ///< t_s [s]
   double end() const;    ///< t_e [s]
   BaseValue at(double t) const;
@@ -33,7 +33,8 @@ struct ExpBase {
 /// Angles of the analogous swing model (section 2.6): upper arm at polar angle gamma and azimuth q1, forearm at polar angle
 /// gamma + q2 and azimuth q1 + q3.
 struct SwingAngles {
-  Eigen::Vector3d q = Eigen::Vector3d::Zero(), qd = Eigen::Vector3d::Zero(), qdd = Eigen::Vector3d::Zero();
+  Eigen::Vector3d q = Eigen::Vector3d::Zero(), qd = Eigen::Vector3d::Zero(),
+                  qdd = Eigen::Vector3d::Zero();
 };
 
 /// The same motion in WAM joints: J1 = q1, J2 = gamma, (J3, J4) point the forearm; with velocities and accelerations.

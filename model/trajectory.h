@@ -12,8 +12,9 @@ struct ArmMotion {
   Eigen::Vector4d qdd = Eigen::Vector4d::Zero();  ///< [rad/s^2]
 };
 
-/// A motion sampled at even times, as SWING_PLAN carries it. Between samples: the quintic Hermite polynomial through both
-/// neighbours' (q, qd, qdd). Before the first and after the last sample the arm rests there.
+/// A motion sampled at even times, as SWING_PLAN carries it. Between samples: the quintic Hermite
+/// polynomial through both neighbours' (q, qd, qdd). Before the first and after the last sample the
+/// arm rests there.
 class SampledTrajectory {
  public:
   SampledTrajectory() = default;
