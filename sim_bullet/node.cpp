@@ -1,0 +1,277 @@
+#include "sim_bullet/node.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace fastball::sim_bullet {
+namespace {
+
+constexpr int64_t kTickUs = 1000;
+/// Lockstep: an answer later than this [us of wall time] may have been lost.
+constexpr int64_t kRepeatUs = 20000;
+/// SIM_TRUTH and CAMERA_INFO, in ticks.
+constexpr int64_t kTruthTicks = 10;
+constexpr int64_t kCameraInfoTicks = 1000;
+/// Real time: a simulator further behind than this [us] lets the wall time go instead of running after it.
+constexpr int64_t kMostBehindUs = 100000;
+
+constexpr double kLongestScene = 600;     // [s]
+constexpr int64_t kLatestUs = 1LL << 60;  // leaves room for the scene's own time
+constexpr double kLeastUpright = 0.05;    // horizontal part of the net's normal
+constexpr double kLargestRing = 10;       // [m]
+
+messaging::Channel<image_t> imageChannel(const std::string& name) {
+  for (const auto& channel : {messaging::kCameraLeft, messaging::kCameraRight}) {
+    if (name == channel.name)
+      return channel;
+  }
+  throw std::invalid_argument(fmt::format("camera channel '{}' is none of {} and {}", name,
+                                          messaging::kCameraLeft.name,
+                                          messaging::kCameraRight.name));
+}
+
+/// A message may be well formed and still no scene. @throw std::invalid_argument
+void requireRealScene(const scene_t& message) {
+  if (message.duration > kLongestScene)
+    throw std::invalid_argument(fmt::format("scene {} would last {} s; the longest lasts {} s",
+                                            message.scene_id, message.duration, kLongestScene));
+  if (message.utime > kLatestUs)
+    throw std::invalid_argument(
+        fmt::format("scene {} would begin at {} us; the latest begins at {} us", message.scene_id,
+                    message.utime, kLatestUs));
+  if (std::hypot(message.n_WTarget[0], message.n_WTarget[1]) < kLeastUpright)
+    throw std::invalid_argument(
+        fmt::format("the net of scene {} lies flat: its normal is ({}, {}, {})", message.scene_id,
+                    message.n_WTarget[0], message.n_WTarget[1], message.n_WTarget[2]));
+  if (message.target_radius > kLargestRing)
+    throw std::invalid_argument(
+        fmt::format("the net of scene {} has a radius of {} m; the largest has {} m",
+                    message.scene_id, message.target_radius, kLargestRing));
+}
+
+}  // namespace
+
+SimulatorSetup loadSetup(const messaging::ProcessOptions& options) {
+  const std::string path =
+      options.config.empty() ? config::defaultExperimentPath() : options.config;
+  SimulatorSetup setup;
+  setup.experiment = config::loadExperiment(path);
+  setup.settings = loadSimulationSettings(path);
+  if (!options.uncertainty.empty())
+    setup.uncertainty = loadUncertainty(options.uncertainty);
+  setup.cameras = readCameraRig(path);
+  setup.realtime = options.realtime;
+  return setup;
+}
+
+SimNode::SimNode(messaging::Endpoint& endpoint,
+                 const messaging::Clock& clock,
+                 const SimulatorSetup& setup)
+    : clock_(clock),
+      setup_(setup),
+      arm_states_(endpoint, messaging::kArmState),
+      hand_states_(endpoint, messaging::kHandState),
+      truths_(endpoint, messaging::kSimTruth),
+      camera_infos_(endpoint, messaging::kCameraInfo) {
+  if (setup_.cameras) {
+    cameras_ = std::make_unique<CameraRig>(*setup_.cameras, setup_.experiment.arm,
+                                           setup_.experiment.hand, setup_.experiment.ball.radius);
+    for (const RigCamera& camera : cameras_->cameras())
+      images_.emplace_back(endpoint, imageChannel(camera.channel));
+  }
+  endpoint.subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) {
+    if (m.scene_id > message_.scene_id)
+      next_scene_ = m;
+  });
+  // A command answers the tick that was said last; in real time it may answer any tick since the one before it.
+  endpoint.subscribe<arm_command_t>(messaging::kArmCommand,
+                                    [this](const arm_command_t& m) { take(m, &arm_command_); });
+  endpoint.subscribe<hand_command_t>(messaging::kHandCommand,
+                                     [this](const hand_command_t& m) { take(m, &hand_command_); });
+}
+
+template <class Command>
+void SimNode::take(const Command& message, std::optional<Command>* newest) {
+  const bool this_scene = running() && message.scene_id == message_.scene_id;
+  const int64_t tick = this_scene ? scene_->tick() : 0;
+  const bool fits = setup_.realtime
+                        ? message.tick <= tick && (!*newest || message.tick > (*newest)->tick)
+                        : message.tick == tick;
+  if (this_scene && fits)
+    *newest = message;
+  else
+    ++stray_commands_;
+}
+
+void SimNode::step() {
+  if (next_scene_) {
+    const scene_t message = *next_scene_;
+    next_scene_.reset();
+    begin(message);
+  }
+  if (!running())
+    return;
+  if (setup_.realtime)
+    stepRealtime();
+  else
+    stepLockstep();
+  sayImages();
+}
+
+int64_t SimNode::wakeUs() const {
+  if (next_scene_)
+    return clock_.monotonicUs();
+  if (!running())
+    return INT64_MAX;
+  return setup_.realtime ? start_us_ + (scene_->tick() + 1) * kTickUs : said_us_ + kRepeatUs;
+}
+
+void SimNode::begin(const scene_t& message) {
+  if (running())
+    end("finished", fmt::format("given up for scene {}", message.scene_id));
+  message_ = message;
+  arm_command_.reset();
+  hand_command_.reset();
+  stray_commands_ = 0;
+  braking_ = false;
+  try {
+    requireRealScene(message);
+    scene_ = std::make_unique<Scene>(setup_.experiment, setup_.settings, setup_.uncertainty,
+                                     sceneStart(message));
+  } catch (const std::exception& error) {
+    state_ = {"failed", error.what(), message.scene_id};
+    return;
+  }
+  last_tick_ = std::max<int64_t>(1, std::llround(message.duration / kTick));
+  state_ = {"running", "", message.scene_id};
+  start_us_ = clock_.monotonicUs();
+  beginImages();
+  sayCameraInfo();
+  say(sim_truth_t::SAMPLE);
+  sayStates();
+}
+
+void SimNode::beginImages() {
+  if (!cameras_)
+    return;
+  const auto us = [&](double seconds) {
+    return message_.utime + std::llround(std::min(seconds, message_.duration) * 1e6);
+  };
+  cameras_->begin(message_.scene_id, message_.seed, us(message_.camera_start),
+                  us(message_.camera_end), sceneStart(message_).target);
+  cameras_->add(scene_->snapshot(message_.utime));
+}
+
+void SimNode::stepLockstep() {
+  if (arm_command_ && hand_command_) {
+    scene_->advance(armTorque(*arm_command_), handCommand(*hand_command_));
+    arm_command_.reset();
+    hand_command_.reset();
+    afterTick();
+  } else if (clock_.monotonicUs() - said_us_ >= kRepeatUs) {
+    sayStates();
+  }
+}
+
+void SimNode::stepRealtime() {
+  const int64_t now_us = clock_.monotonicUs();
+  start_us_ = std::max(start_us_, now_us - kMostBehindUs - scene_->tick() * kTickUs);
+  while (running() && start_us_ + (scene_->tick() + 1) * kTickUs <= now_us)
+    tickRealtime();
+}
+
+void SimNode::tickRealtime() {
+  const HandCommand hand = hand_command_ ? handCommand(*hand_command_) : scene_->openHand();
+  const int64_t limit = std::llround(setup_.settings.watchdog / kTick);
+  const bool alive = arm_command_ && scene_->tick() - arm_command_->tick <= limit;
+  if (alive)
+    scene_->advance(armTorque(*arm_command_), hand);
+  else
+    scene_->brake(hand);
+  if (alive == braking_ || scene_->tick() == 1)
+    state_.detail = alive ? "" : fmt::format("braking: no ARM_COMMAND for more than {} ms", limit);
+  braking_ = !alive;
+  afterTick();
+}
+
+void SimNode::afterTick() {
+  if (!scene_->healthy()) {
+    end("failed", fmt::format("the state of scene {} is no longer finite at tick {}",
+                              message_.scene_id, scene_->tick()));
+    return;
+  }
+  for (const SceneEvent& event : scene_->events()) {
+    sim_truth_t message = truth(event, message_.utime, message_.scene_id, scene_->state().q.arm);
+    truths_.publish(message);
+  }
+  if (cameras_)
+    cameras_->add(scene_->snapshot(message_.utime));
+  if (scene_->tick() >= last_tick_) {
+    end("finished", fmt::format("scene {} has run its {} s", message_.scene_id, message_.duration));
+    return;
+  }
+  if (scene_->tick() % kTruthTicks == 0)
+    say(sim_truth_t::SAMPLE);
+  if (scene_->tick() % kCameraInfoTicks == 0)
+    sayCameraInfo();
+  sayStates();
+}
+
+TickStamp SimNode::stamp() const {
+  return {message_.utime + scene_->tick() * kTickUs, message_.scene_id, scene_->tick()};
+}
+
+void SimNode::sayStates() {
+  arm_state_t arm = armState(stamp(), scene_->state());
+  hand_state_t hand = handState(stamp(), scene_->state());
+  arm_states_.publish(arm);
+  hand_states_.publish(hand);
+  said_us_ = clock_.monotonicUs();
+}
+
+void SimNode::say(int8_t event) {
+  sim_truth_t message = truth(stamp(), event, scene_->ball(), scene_->state().q.arm);
+  truths_.publish(message);
+}
+
+void SimNode::sayCameraInfo() {
+  if (!cameras_)
+    return;
+  for (const RigCamera& camera : cameras_->cameras()) {
+    camera_info_t message = cameraInfo(camera, stamp().utime);
+    camera_infos_.publish(message);
+  }
+}
+
+void SimNode::sayImages() {
+  while (cameras_ && cameras_->nextImage(rendered_)) {
+    image_t message = image(rendered_);
+    images_[static_cast<std::size_t>(rendered_.camera)].publish(message);
+  }
+}
+
+void SimNode::end(const std::string& state, const std::string& note) {
+  // The last images are still being drawn: some ten, a few milliseconds each.
+  if (cameras_)
+    cameras_->flush();
+  sayImages();
+  if (scene_->healthy()) {
+    sim_truth_t message =
+        truth(stamp(), sim_truth_t::FINISHED, scene_->ball(), scene_->state().q.arm);
+    message.note = note;
+    truths_.publish(message);
+  }
+  scene_.reset();
+  state_ = {state, note, message_.scene_id};
+}
+
+std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
+                                          const messaging::Clock& clock,
+                                          const messaging::ProcessOptions& options) {
+  return std::make_unique<SimNode>(endpoint, clock, loadSetup(options));
+}
+
+}  // namespace fastball::sim_bullet

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "messaging/endpoint.h"
+#include "messaging/node.h"
+#include "messaging/process.h"
+#include "sim_bullet/camera_rig.h"
+#include "sim_bullet/scene.h"
+#include "sim_bullet/scene_messages.h"
+
+namespace fastball::sim_bullet {
+
+/// Everything a simulator needs to know before the first scene.
+struct SimulatorSetup {
+  config::Experiment experiment;
+  SimulationSettings settings;
+  Uncertainty uncertainty;
+  std::optional<CameraRigOptions> cameras;  ///< none: no images
+  bool realtime = false;
+};
+
+/// Reads the experiment file and the uncertainty file of the options. @throw config::ConfigError
+SimulatorSetup loadSetup(const messaging::ProcessOptions& options);
+
+/// The simulated robot and cameras as a process of the experiment: SCENE, ARM_COMMAND and HAND_COMMAND in; ARM_STATE, HAND_STATE,
+/// images, CAMERA_INFO and SIM_TRUTH out.
+///
+/// Lockstep: says the state of a tick and advances when it has both commands that name this scene and tick; says the state
+/// again when one is 20 ms late, because UDP loses packets. Commands for anything else are left alone and counted.
+/// Real time: advances with the wall clock; the newest commands hold, and an arm command older than the watchdog brakes.
+///
+/// Its HEARTBEAT state is idle (no scene yet), running, finished (plan_id: the scene that has ended) or failed.
+class SimNode : public messaging::Node {
+ public:
+  SimNode(messaging::Endpoint& endpoint,
+          const messaging::Clock& clock,
+          const SimulatorSetup& setup);
+
+  std::string name() const override { return "sim_bullet"; }
+  void step() override;
+  int64_t wakeUs() const override;
+  messaging::NodeState state() const override { return state_; }
+
+  /// Commands that named another scene or tick than the one waited for.
+  int64_t strayCommands() const { return stray_commands_; }
+  /// The scene that runs, or null.
+  const Scene* scene() const { return scene_.get(); }
+
+ private:
+  template <class Command>
+  void take(const Command& message, std::optional<Command>* newest);
+  void begin(const scene_t& message);
+  void beginImages();
+  void stepLockstep();
+  void stepRealtime();
+  void tickRealtime();
+  void say(int8_t event);
+  void sayStates();
+  void sayCameraInfo();
+  void sayImages();
+  void afterTick();
+  void end(const std::string& state, const std::string& note);
+  TickStamp stamp() const;
+  bool running() const { return scene_ != nullptr; }
+
+  const messaging::Clock& clock_;
+  SimulatorSetup setup_;
+  std::unique_ptr<CameraRig> cameras_;
+
+  messaging::Publisher<arm_state_t> arm_states_;
+  messaging::Publisher<hand_state_t> hand_states_;
+  messaging::Publisher<sim_truth_t> truths_;
+  messaging::Publisher<camera_info_t> camera_infos_;
+  std::vector<messaging::Publisher<image_t>> images_;
+
+  std::optional<scene_t> next_scene_;
+  std::optional<arm_command_t> arm_command_;
+  std::optional<hand_command_t> hand_command_;
+  scene_t message_{};  ///< of the scene
+  std::unique_ptr<Scene> scene_;
+  int64_t last_tick_ = 0;
+  int64_t said_us_ = 0;   ///< monotonic, lockstep: states last said
+  int64_t start_us_ = 0;  ///< monotonic, real time: tick 0
+  int64_t stray_commands_ = 0;
+  bool braking_ = false;  ///< real time: the watchdog has the arm
+  RenderedImage rendered_;
+  messaging::NodeState state_;
+};
+
+/// @throw config::ConfigError
+std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
+                                          const messaging::Clock& clock,
+                                          const messaging::ProcessOptions& options);
+
+}  // namespace fastball::sim_bullet

@@ -1,0 +1,289 @@
+#include "sim_bullet/node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "messaging/local_network.h"
+#include "tests/sim_bullet/scripted_robot_peers.h"
+
+namespace fastball::sim_bullet {
+namespace {
+
+using testing::HasSubstr;
+
+SimulatorSetup setup(bool realtime) {
+  return {experiment(), simulation(), {}, std::nullopt, realtime};
+}
+
+/// A simulator and scripted peers in one process; the wall clock stands unless a test moves it.
+class Simulator : public testing::Test {
+ protected:
+  explicit Simulator(bool realtime = false) : node_(endpoint_, clock_, setup(realtime)) {
+    network_.addNode(node_, endpoint_);
+  }
+  /// Runs until nothing moves any more.
+  void settle() {
+    network_.run([] { return false; });
+  }
+  /// Runs until the simulator has said this tick's states.
+  bool runTo(int64_t tick) {
+    return network_.run([&] { return peers_.tick() >= tick; });
+  }
+
+  messaging::ManualClock clock_;
+  messaging::LocalNetwork network_{clock_};
+  messaging::Endpoint& endpoint_ = network_.addEndpoint();
+  messaging::Endpoint& peer_endpoint_ = network_.addEndpoint();
+  SimNode node_;
+  ScriptedPeers peers_{peer_endpoint_};
+};
+
+class RealtimeSimulator : public Simulator {
+ protected:
+  RealtimeSimulator() : Simulator(true) {}
+  void runMilliseconds(int ms) {
+    for (int i = 0; i < ms; ++i) {
+      clock_.advanceUs(1000);
+      settle();
+    }
+  }
+};
+
+TEST_F(Simulator, IsIdleBeforeTheFirstScene) {
+  settle();
+  EXPECT_EQ(node_.state().state, "idle");
+  EXPECT_TRUE(peers_.arm_states.empty());
+  EXPECT_EQ(node_.wakeUs(), INT64_MAX);
+}
+
+TEST_F(Simulator, WaitsForBothCommandsOfATick) {
+  peers_.answers_arm = peers_.answers_hand = false;
+  peers_.sendScene(sceneMessage(1, 1));
+  settle();
+  ASSERT_EQ(peers_.arm_states.size(), 1u);
+  ASSERT_EQ(peers_.hand_states.size(), 1u);
+  EXPECT_EQ(peers_.tick(), 0);
+  EXPECT_EQ(peers_.arm_states[0].utime, 10'000'000);
+  peers_.sendArm(peers_.armCommand(peers_.arm_states[0]));
+  settle();
+  EXPECT_EQ(peers_.tick(), 0);
+  peers_.sendHand(ScriptedPeers::handCommandFor(peers_.hand_states[0]));
+  settle();
+  EXPECT_EQ(peers_.tick(), 1);
+  EXPECT_EQ(peers_.arm_states.back().utime, 10'001'000);
+  EXPECT_EQ(peers_.hand_states.back().tick, 1);
+}
+
+TEST_F(Simulator, SaysTheStateAgainWhenAnAnswerIsLate) {
+  peers_.answers_hand = false;
+  peers_.sendScene(sceneMessage(1, 1));
+  settle();
+  clock_.advanceUs(19'999);
+  settle();
+  EXPECT_EQ(peers_.arm_states.size(), 1u);
+  clock_.advanceUs(1);
+  settle();
+  ASSERT_EQ(peers_.arm_states.size(), 2u);
+  ASSERT_EQ(peers_.hand_states.size(), 2u);
+  EXPECT_EQ(peers_.arm_states[1].tick, 0);
+  EXPECT_EQ(peers_.arm_states[1].utime, peers_.arm_states[0].utime);
+  EXPECT_GT(peers_.arm_states[1].seq, peers_.arm_states[0].seq);
+  peers_.sendHand(ScriptedPeers::handCommandFor(peers_.hand_states[1]));
+  settle();
+  EXPECT_EQ(peers_.tick(), 1);
+}
+
+TEST_F(Simulator, LeavesCommandsForOtherTicksAndScenesAlone) {
+  peers_.answers_arm = false;
+  peers_.sendScene(sceneMessage(3, 1));
+  settle();
+  for (const int64_t tick : {1, 5}) {
+    arm_command_t command = peers_.armCommand(peers_.arm_states[0]);
+    command.tick = tick;
+    peers_.sendArm(command);
+  }
+  for (const int64_t scene : {2, 4}) {
+    arm_command_t command = peers_.armCommand(peers_.arm_states[0]);
+    command.scene_id = scene;
+    peers_.sendArm(command);
+  }
+  settle();
+  EXPECT_EQ(peers_.tick(), 0);
+  EXPECT_EQ(node_.strayCommands(), 4);
+}
+
+TEST_F(Simulator, RunsASceneToItsEnd) {
+  peers_.sendScene(sceneMessage(1, 0.2));
+  peers_.sendScene(sceneMessage(1, 0.2));  // a repetition
+  settle();
+  EXPECT_EQ(peers_.tick(), 199);
+  EXPECT_EQ(peers_.arm_states.size(), 200u);
+  EXPECT_EQ(peers_.count(sim_truth_t::SAMPLE), 20);
+  EXPECT_EQ(peers_.count(sim_truth_t::FINISHED), 1);
+  EXPECT_EQ(peers_.truths.back().event, +sim_truth_t::FINISHED);
+  EXPECT_EQ(peers_.truths.back().utime, 10'200'000);
+  EXPECT_EQ(node_.state().state, "finished");
+  EXPECT_EQ(node_.state().plan_id, 1);
+  EXPECT_EQ(node_.wakeUs(), INT64_MAX);
+  for (const hand_state_t& state : peers_.hand_states)
+    EXPECT_TRUE(state.tick < 100 || state.f_normal[model::kThumb] > 1) << state.tick;
+
+  peers_.sendScene(sceneMessage(1, 0.2));  // too late to mean anything
+  settle();
+  EXPECT_EQ(peers_.arm_states.size(), 200u);
+  peers_.sendScene(sceneMessage(2, 0.05));
+  settle();
+  EXPECT_EQ(peers_.arm_states.size(), 250u);
+  EXPECT_EQ(node_.state().plan_id, 2);
+}
+
+TEST_F(Simulator, LostAndRepeatedMessagesDoNotChangeTheThrow) {
+  peers_.push = 1;
+  peers_.sendScene(sceneMessage(1, 0.15));
+  settle();
+  const arm_state_t clean = peers_.arm_states.back();
+
+  peers_.sendScene(sceneMessage(2, 0.15));
+  for (int64_t tick = 0; tick < 150; ++tick) {
+    peers_.answers_arm = tick % 3 != 0;
+    peers_.answers_hand = tick % 7 != 0;
+    settle();
+    peers_.answers_arm = peers_.answers_hand = true;
+    peers_.sendArm(peers_.armCommand(peers_.arm_states.back()));
+    peers_.sendArm(peers_.armCommand(peers_.arm_states.back()));
+    clock_.advanceUs(20'000);
+    network_.run([&] { return peers_.tick() > tick; });
+  }
+  settle();
+  const arm_state_t battered = peers_.arm_states.back();
+  EXPECT_EQ(battered.tick, clean.tick);
+  EXPECT_EQ(std::memcmp(battered.q, clean.q, sizeof(clean.q)), 0);
+  EXPECT_EQ(std::memcmp(battered.qd, clean.qd, sizeof(clean.qd)), 0);
+}
+
+TEST_F(Simulator, ASceneThatCannotBeFailsWithItsReasonAndTheNextOneRuns) {
+  scene_t scene = sceneMessage(1, 0.1);
+  scene.q_arm[3] = -2;
+  peers_.sendScene(scene);
+  settle();
+  EXPECT_EQ(node_.state().state, "failed");
+  EXPECT_THAT(node_.state().detail, HasSubstr("joint 4 at -2 rad"));
+  EXPECT_TRUE(peers_.arm_states.empty());
+  peers_.sendScene(sceneMessage(2, 0.05));
+  settle();
+  EXPECT_EQ(node_.state().state, "finished");
+}
+
+TEST_F(Simulator, RefusesScenesThatMakeNoSense) {
+  std::vector<scene_t> scenes(4, sceneMessage(1, 0.1));
+  scenes[0].duration = scenes[0].camera_end = 1e300;
+  scenes[1].utime = INT64_MAX;
+  scenes[2].n_WTarget[0] = 0;
+  scenes[2].n_WTarget[2] = 1;
+  scenes[3].target_radius = 1e12;
+  const std::vector<std::string> reasons{"1e+300 s", "9223372036854775807 us", "lies flat",
+                                         "radius"};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    scenes[i].scene_id = static_cast<int64_t>(i) + 1;
+    peers_.sendScene(scenes[i]);
+    settle();
+    EXPECT_EQ(node_.state().state, "failed");
+    EXPECT_THAT(node_.state().detail, HasSubstr(reasons[i]));
+  }
+}
+
+TEST_F(Simulator, ANewSceneEndsTheOldOne) {
+  peers_.answers_arm = false;
+  peers_.sendScene(sceneMessage(1, 1));
+  settle();
+  peers_.sendScene(sceneMessage(2, 1));
+  settle();
+  EXPECT_EQ(peers_.count(sim_truth_t::FINISHED), 1);
+  EXPECT_EQ(peers_.arm_states.back().scene_id, 2);
+}
+
+TEST_F(RealtimeSimulator, KeepsPaceWithTheClock) {
+  peers_.sendScene(sceneMessage(1, 0.1));
+  settle();
+  EXPECT_EQ(peers_.tick(), 0);
+  runMilliseconds(10);
+  EXPECT_EQ(peers_.tick(), 10);
+  clock_.advanceUs(5000);  // the machine was busy
+  settle();
+  EXPECT_EQ(peers_.tick(), 15);
+  runMilliseconds(85);
+  EXPECT_EQ(node_.state().state, "finished");
+}
+
+TEST_F(RealtimeSimulator, BrakesWhenCommandsStopComing) {
+  peers_.sendScene(sceneMessage(1, 2));
+  peers_.push = 20;
+  settle();
+  runMilliseconds(100);
+  EXPECT_EQ(node_.state().detail, "");
+  const auto speed = [&] { return node_.scene()->state().qd.arm.norm(); };
+  const double fast = speed();
+  EXPECT_GT(fast, 0.5);
+  peers_.answers_arm = false;
+  runMilliseconds(20);
+  EXPECT_EQ(node_.state().detail, "");  // the last command holds
+  runMilliseconds(3);
+  EXPECT_THAT(node_.state().detail, HasSubstr("braking"));
+  runMilliseconds(500);
+  EXPECT_LT(speed(), 0.1 * fast);
+  peers_.answers_arm = true;
+  peers_.push = 0;
+  runMilliseconds(3);
+  EXPECT_EQ(node_.state().detail, "");
+}
+
+TEST_F(RealtimeSimulator, BrakesUntilTheFirstCommand) {
+  peers_.answers_arm = peers_.answers_hand = false;
+  peers_.sendScene(sceneMessage(1, 0.5));
+  settle();
+  runMilliseconds(300);
+  EXPECT_THAT(node_.state().detail, HasSubstr("no ARM_COMMAND for more"));
+  EXPECT_LT((node_.scene()->state().q.arm - experiment().q_rest).norm(), 0.01);
+}
+
+TEST(SimulatorWithCameras, SaysImagesInTheirWindowAndHowTheCamerasStand) {
+  SimulatorSetup with_cameras = setup(false);
+  with_cameras.cameras = readCameraRig(kExperimentFile);
+  const messaging::ManualClock clock;
+  messaging::LocalNetwork network(clock);
+  messaging::Endpoint& endpoint = network.addEndpoint();
+  messaging::Endpoint& peer_endpoint = network.addEndpoint();
+  SimNode node(endpoint, clock, with_cameras);
+  network.addNode(node, endpoint);
+  ScriptedPeers peers(peer_endpoint);
+  std::vector<image_t> left, right;
+  std::vector<camera_info_t> infos;
+  peer_endpoint.subscribe<image_t>(messaging::kCameraLeft,
+                                   [&](const image_t& m) { left.push_back(m); });
+  peer_endpoint.subscribe<image_t>(messaging::kCameraRight,
+                                   [&](const image_t& m) { right.push_back(m); });
+  peer_endpoint.subscribe<camera_info_t>(messaging::kCameraInfo,
+                                         [&](const camera_info_t& m) { infos.push_back(m); });
+  scene_t scene = sceneMessage(1, 0.1);
+  scene.camera_start = 0.02;
+  scene.camera_end = 0.06;
+  peers.sendScene(scene);
+  network.run([] { return false; });
+  EXPECT_EQ(node.state().state, "finished");
+  ASSERT_EQ(infos.size(), 2u);
+  EXPECT_EQ(infos[0].channel, "CAMERA_LEFT");
+  const auto expected = static_cast<std::size_t>(0.04 * infos[0].rate);
+  EXPECT_NEAR(static_cast<double>(left.size()), static_cast<double>(expected), 1);
+  ASSERT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(left[i].utime, right[i].utime);
+    EXPECT_EQ(left[i].seq, static_cast<int64_t>(i));
+    EXPECT_GT(left[i].utime, scene.utime + 20'000);
+    EXPECT_LT(left[i].utime, scene.utime + 60'000);
+  }
+}
+
+}  // namespace
+}  // namespace fastball::sim_bullet
