@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "model/arm.h"
+#include "model/trajectory.h"
+
+namespace fastball::controller {
+
+/// A motion to follow, and when its parts begin [s from its start].
+struct Plan {
+  int64_t id = 0;
+  double t_ready = 0;      ///< approach ends
+  double t_swing = 0;      ///< swing begins
+  double t_swing_end = 0;  ///< follow-through begins
+  model::SampledTrajectory trajectory;
+};
+
+bool operator==(const Plan& a, const Plan& b);
+
+/// Why the plan must not be followed, wherever the arm is: times out of order, not finite, not at rest at both ends, or
+/// beyond a position, speed or torque limit (drive inertia and friction included) on a 1 ms grid. One sentence, or nothing.
+std::optional<std::string> planFault(const model::Arm& arm, const Plan& plan);
+
+/// Why the plan must not be followed from an arm at q [rad], or nothing.
+std::optional<std::string> startFault(const Plan& plan, const Eigen::Vector4d& q, double tolerance);
+
+}  // namespace fastball::controller

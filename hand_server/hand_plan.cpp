@@ -1,0 +1,88 @@
+#include "hand_server/hand_plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace fastball::hand_server {
+namespace {
+
+void requireWrist(const HandPlan& plan, double limit) {
+  for (int i = 0; i < 2; ++i) {
+    if (!(std::abs(plan.q_wrist[i]) <= limit)) {
+      throw std::invalid_argument(
+          fmt::format("plan {}: wrist {} of {:.4g} rad, its limit is {:.4g} rad", plan.id,
+                      i == 0 ? "roll" : "flexion", plan.q_wrist[i], limit));
+    }
+  }
+}
+
+void requireTimes(const HandPlan& plan) {
+  const double end = plan.arm.duration();
+  if (!(plan.t_swing >= 0 && plan.t_swing <= plan.t_release_command &&
+        plan.t_release_command <= end)) {
+    throw std::invalid_argument(
+        fmt::format("plan {}: release is commanded at {:.4g} s, outside the motion from its swing "
+                    "at {:.4g} s to its end "
+                    "at {:.4g} s",
+                    plan.id, plan.t_release_command, plan.t_swing, end));
+  }
+}
+
+void requireTorques(const HandPlan& plan, const model::HandVector& tau, double limit) {
+  int joint = 0;
+  if (tau.cwiseAbs().maxCoeff(&joint) > limit) {
+    throw std::invalid_argument(fmt::format(
+        "plan {}: a grip of {:.4g} N needs {:.4g} N m at hand joint {}, its limit is {:.4g} N m",
+        plan.id, plan.grip_force, tau[joint], joint, limit));
+  }
+}
+
+}  // namespace
+
+bool operator==(const HandPlan& a, const HandPlan& b) {
+  const auto& sa = a.arm.samples();
+  const auto& sb = b.arm.samples();
+  if (a.id != b.id || a.arm.dt() != b.arm.dt() || sa.size() != sb.size()) {
+    return false;
+  }
+  for (std::size_t k = 0; k < sa.size(); ++k) {
+    if (sa[k].q != sb[k].q || sa[k].qd != sb[k].qd || sa[k].qdd != sb[k].qdd) {
+      return false;
+    }
+  }
+  return a.t_swing == b.t_swing && a.t_release_command == b.t_release_command &&
+         a.t_release == b.t_release && a.grip_force == b.grip_force && a.q_wrist == b.q_wrist;
+}
+
+PlannedGrasp planGrasp(const HandPlan& plan,
+                       const model::Hand& hand,
+                       const model::BallParameters& ball) {
+  if (!(plan.grip_force > 0)) {
+    throw std::invalid_argument(
+        fmt::format("plan {}: a grip of {:.4g} N does not hold the ball, it must be positive",
+                    plan.id, plan.grip_force));
+  }
+  requireWrist(plan, hand.parameters().wrist_limit);
+  requireTimes(plan);
+  PlannedGrasp result{plan, {}};
+  try {
+    result.geometry = model::grasp(ball, hand, plan.grip_force);
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(fmt::format("plan {}: {}", plan.id, e.what()));
+  }
+  result.q = hand.posture(plan.q_wrist[0], plan.q_wrist[1], result.geometry.distances());
+  for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
+    const int proximal = model::Hand::proximalJoint(finger);
+    const Eigen::Vector3d& torque = result.geometry.fingers[finger].torque;
+    result.tau.segment<2>(proximal) = torque.tail<2>();
+    if (finger != model::kThumb) {
+      result.tau[proximal - 1] = torque[0];
+    }
+  }
+  requireTorques(plan, result.tau, hand.parameters().finger_torque_max);
+  return result;
+}
+
+}  // namespace fastball::hand_server

@@ -1,0 +1,158 @@
+#include "hand_server/node.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "config/experiment.h"
+#include "hand_server/hand_controller.h"
+
+namespace fastball::hand_server {
+namespace {
+
+HandPlan fromMessage(const swing_plan_t& message) {
+  std::vector<model::ArmMotion> samples(static_cast<std::size_t>(message.n_samples));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    samples[k].q = Eigen::Map<const Eigen::Vector4d>(message.q[k].data());
+    samples[k].qd = Eigen::Map<const Eigen::Vector4d>(message.qd[k].data());
+    samples[k].qdd = Eigen::Map<const Eigen::Vector4d>(message.qdd[k].data());
+  }
+  return {message.plan_id,
+          message.t_swing,
+          message.t_release_command,
+          message.t_release,
+          message.grip_force,
+          Eigen::Map<const Eigen::Vector2d>(message.q_wrist),
+          model::SampledTrajectory(message.dt, std::move(samples))};
+}
+
+class HandServerNode : public messaging::Node {
+ public:
+  HandServerNode(messaging::Endpoint& endpoint,
+                 const config::Experiment& experiment,
+                 const HandServerConfig& config,
+                 bool realtime)
+      : realtime_(realtime),
+        controller_(model::Arm(experiment.arm, experiment.hand.payload),
+                    model::Hand(experiment.hand),
+                    experiment.ball,
+                    config),
+        commands_(endpoint, messaging::kHandCommand),
+        releases_(endpoint, messaging::kRelease) {
+    endpoint.subscribe<swing_plan_t>(messaging::kSwingPlan,
+                                     [this](const swing_plan_t& m) { takePlan(m); });
+    endpoint.subscribe<throw_start_t>(messaging::kThrowStart, [this](const throw_start_t& m) {
+      controller_.startThrow({m.plan_id, m.scene_id, m.start_utime});
+    });
+    endpoint.subscribe<estop_t>(messaging::kEstop, [this](const estop_t& m) {
+      controller_.keep("kept the ball: ESTOP: " + m.reason);
+    });
+    endpoint.subscribe<arm_state_t>(messaging::kArmState, [this](const arm_state_t& m) {
+      controller_.watchArm(m.scene_id, m.utime, Eigen::Map<const Eigen::Vector4d>(m.q));
+    });
+    endpoint.subscribe<hand_state_t>(messaging::kHandState, [this](const hand_state_t& m) {
+      newest_ = m;
+      is_new_ = true;
+      // In lockstep the robot waits for the answer to each state; in real time only the newest counts.
+      if (!realtime_)
+        answerNewest();
+    });
+  }
+
+  std::string name() const override { return "hand_server"; }
+
+  void step() override {
+    if (is_new_)
+      answerNewest();
+  }
+
+  messaging::NodeState state() const override {
+    return {word(), controller_.notice(), controller_.planId()};
+  }
+
+ private:
+  const char* word() const {
+    if (controller_.running())
+      return "running";
+    if (controller_.refused())
+      return "refused";
+    if (controller_.armed())
+      return "armed";
+    if (controller_.planned())
+      return "planned";
+    if (controller_.released())
+      return "released";
+    return controller_.kept() ? "holding" : "idle";
+  }
+
+  void takePlan(const swing_plan_t& message) {
+    if (message.status != swing_plan_t::OK)
+      return;
+    try {
+      controller_.offerPlan(fromMessage(message));
+    } catch (const std::invalid_argument& e) {
+      controller_.refusePlan(message.plan_id,
+                             fmt::format("plan {}: {}", message.plan_id, e.what()));
+    }
+  }
+
+  void answerNewest() {
+    is_new_ = false;
+    HandSample sample{newest_.utime, newest_.scene_id, newest_.tick,
+                      Eigen::Map<const model::HandVector>(newest_.q),
+                      Eigen::Map<const model::HandVector>(newest_.qd)};
+    std::copy_n(newest_.f_normal, model::kFingers, sample.force.begin());
+    const std::optional<HandAnswer> answer = controller_.answer(sample);
+    if (!answer)
+      return;
+    command_.utime = newest_.utime;
+    command_.scene_id = newest_.scene_id;
+    command_.tick = newest_.tick;
+    command_.plan_id = answer->plan_id;
+    command_.phase = static_cast<int8_t>(answer->phase);
+    std::copy_n(answer->q.data(), model::kHandJoints, command_.q);
+    std::copy_n(answer->qd.data(), model::kHandJoints, command_.qd);
+    std::copy_n(answer->tau.data(), model::kHandJoints, command_.tau);
+    std::copy_n(answer->kp.data(), model::kHandJoints, command_.kp);
+    std::copy_n(answer->kd.data(), model::kHandJoints, command_.kd);
+    commands_.publish(command_);
+    while (const auto event = controller_.takeEvent())
+      say(*event);
+  }
+
+  void say(const ReleaseEvent& event) {
+    release_t message{};
+    message.utime = event.utime;
+    message.plan_id = event.plan_id;
+    message.scene_id = controller_.scene();
+    message.event = static_cast<int8_t>(event.kind);
+    message.reason =
+        event.reason == ReleaseBy::kPlanTime ? release_t::PLAN_TIME : release_t::NORMAL_FORCE;
+    message.planned_utime = event.planned_utime;
+    std::copy_n(event.force.begin(), model::kFingers, message.f_normal);
+    releases_.publish(message);
+  }
+
+  bool realtime_;
+  HandController controller_;
+  messaging::Publisher<hand_command_t> commands_;
+  messaging::Publisher<release_t> releases_;
+  hand_state_t newest_{};
+  bool is_new_ = false;
+  hand_command_t command_{};
+};
+
+}  // namespace
+
+std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
+                                          const messaging::Clock& /*clock*/,
+                                          const messaging::ProcessOptions& options) {
+  const std::string path =
+      options.config.empty() ? config::defaultExperimentPath() : options.config;
+  return std::make_unique<HandServerNode>(endpoint, config::loadExperiment(path), loadConfig(path),
+                                          options.realtime);
+}
+
+}  // namespace fastball::hand_server

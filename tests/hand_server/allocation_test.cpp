@@ -1,0 +1,50 @@
+// The loop at 1 kHz does not allocate: from the grasp to the cleared hand.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/hand_server/scripted_hand.h"
+
+namespace {
+long g_allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size))
+    return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace fastball::hand_server {
+namespace {
+
+TEST(Allocation, NoneInALoop) {
+  HandController controller(testArm(), testHand(), experiment().ball, loadConfig(kExperimentPath));
+  ScriptedHand hand;
+  const HandPlan plan = throwPlan();
+  ASSERT_TRUE(controller.offerPlan(plan));
+  ASSERT_TRUE(controller.startThrow({1, 1, 300'000}));
+  const long before = g_allocations;
+  ASSERT_GT(before, 0) << "the counter counts";
+  Phase last = Phase::kOpen;
+  for (int i = 0; i < 1000; ++i) {
+    const double force = i < 810 ? 2.0 : 0.0;
+    const auto answer = controller.answer({1000 * i, 1, i, hand.q, hand.qd, {force, force, force}});
+    controller.watchArm(1, 1000 * i, plan.arm.at((i - 300) * 1e-3).q);
+    last = answer->phase;
+    hand.tick(*answer);
+  }
+  EXPECT_EQ(g_allocations - before, 0);
+  EXPECT_EQ(last, Phase::kClear);
+}
+
+}  // namespace
+}  // namespace fastball::hand_server
