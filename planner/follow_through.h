@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/trajectory.h"
+
+namespace fastball::planner {
+
+/// How the arm comes to rest after the release.
+struct FollowThrough {
+  double delay = 0;  ///< [s], the base functions go on for this time after the swing's t = 0
+  Eigen::Vector4d brake_time =
+      Eigen::Vector4d::Zero();  ///< [s], then each joint comes to rest in this time
+
+  /// The motion t [s] after braking began in motion `from`: a quartic to rest for each joint.
+  model::ArmMotion braked(const model::ArmMotion& from, double t) const;
+};
+
+}  // namespace fastball::planner

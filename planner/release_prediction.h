@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "model/arm.h"
+#include "model/hand.h"
+#include "model/release.h"
+#include "planner/config.h"
+#include "planner/whole_motion.h"
+
+namespace fastball::planner {
+
+/// How a ball leaves a moving hand after the command at time 0; hand_at(t) is the hand's motion.
+using PredictDeparture =
+    std::function<model::Departure(const std::function<model::HandMotion(double)>& hand_at)>;
+
+/// model::predictDeparture with the fingers of the configuration.
+PredictDeparture elasticDeparture(const PlannerConfig& config);
+/// A ball that is free at the command, with the hand's velocity.
+PredictDeparture instantDeparture(const PlannerConfig& config);
+
+/// What becomes of the ball in a motion.
+struct ReleasePrediction {
+  double t_command = 0;    ///< [s], time of the motion
+  double t_departure = 0;  ///< [s], time of the motion
+  double wrist_roll = 0;   ///< [rad]
+  model::BallState ball;   ///< at the departure
+  model::Landing landing;
+};
+
+/// Predicts the throw that a motion makes, for one configuration.
+class ReleasePredictor {
+ public:
+  ReleasePredictor(const PlannerConfig& config, const model::Arm& arm, PredictDeparture departure);
+
+  /// The throw when the hand is told to let go at t_command; nothing if the ball does not leave or does not reach the plane.
+  std::optional<ReleasePrediction> predict(const WholeMotion& motion,
+                                           const model::Target& target,
+                                           double t_command) const;
+  /// The whole millisecond at which to let go: the thumb begins to move when Eq. (24) comes true near the swing's t = 0.
+  double commandTime(const WholeMotion& motion) const;
+  /// Largest |hand acceleration - free ball acceleration| [m/s^2] between two times.
+  double residualAcceleration(const model::SampledTrajectory& trajectory,
+                              double from,
+                              double to) const;
+
+ private:
+  double wristRoll(const WholeMotion& motion) const;
+
+  const PlannerConfig& config_;
+  const model::Arm& arm_;
+  model::Hand hand_;
+  PredictDeparture departure_;
+};
+
+}  // namespace fastball::planner
