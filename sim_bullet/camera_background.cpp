@@ -6,14 +6,15 @@
 namespace fastball::sim_bullet {
 namespace {
 
-constexpr double kWallY = 3.0;     // [m], behind the experiment as the cameras see it
-constexpr double kFloorZ = -1.2;   // [m]
+constexpr double kWallY = 3.0;    // [m], behind the experiment as the cameras see it
+constexpr double kFloorZ = -1.2;  // [m]
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kShift = 4;          // OpenCV's fixed point: 1/16 px
+constexpr int kShift = 4;  // OpenCV's fixed point: 1/16 px
 
 /// A value in [0, 1) for a whole-numbered place, the same everywhere (integer hash).
 double hashed(int64_t x, int64_t y) {
-  uint64_t h = static_cast<uint64_t>(x) * 0x9E3779B97F4A7C15ULL + static_cast<uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL;
+  uint64_t h = static_cast<uint64_t>(x) * 0x9E3779B97F4A7C15ULL +
+               static_cast<uint64_t>(y) * 0xC2B2AE3D27D4EB4FULL;
   h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ULL;
   h = (h ^ (h >> 27)) * 0x94D049BB133111EBULL;
   return static_cast<double>((h ^ (h >> 31)) >> 11) * 0x1p-53;
@@ -39,7 +40,9 @@ double wallGrey(double x, double z) {
 }
 
 double floorGrey(double x, double y) {
-  const bool dark = (static_cast<int64_t>(std::floor(x / 0.6)) + static_cast<int64_t>(std::floor(y / 0.6))) % 2 != 0;
+  const bool dark =
+      (static_cast<int64_t>(std::floor(x / 0.6)) + static_cast<int64_t>(std::floor(y / 0.6))) % 2 !=
+      0;
   return (dark ? 46 : 62) + 12 * (smoothNoise(x * 7, y * 7) - 0.5);
 }
 
@@ -49,18 +52,23 @@ cv::Point fixedPoint(const Eigen::Vector2d& p, const cv::Point& origin = {0, 0})
 }
 
 Eigen::Vector3d ringPoint(const model::Target& target, double angle, double radius, double behind) {
-  return target.p_WTarget + radius * (std::cos(angle) * target.rightAxis() + std::sin(angle) * target.upAxis()) -
+  return target.p_WTarget +
+         radius * (std::cos(angle) * target.rightAxis() + std::sin(angle) * target.upAxis()) -
          behind * target.n_WTarget;
 }
 
-void drawLine(const model::Camera& camera, const Eigen::Vector3d& a, const Eigen::Vector3d& b, int grey,
-              double width, cv::Mat& image) {
+void drawLine(const model::Camera& camera,
+              const Eigen::Vector3d& a,
+              const Eigen::Vector3d& b,
+              int grey,
+              double width,
+              cv::Mat& image) {
   const double depth = std::min(camera.toCamera(a).z(), camera.toCamera(b).z());
   if (depth < 0.1)
     return;
   const int thickness = std::max(1, static_cast<int>(std::lround(camera.fx * width / depth)));
-  cv::line(image, fixedPoint(camera.project(a)), fixedPoint(camera.project(b)), cv::Scalar(grey), thickness,
-           cv::LINE_AA, kShift);
+  cv::line(image, fixedPoint(camera.project(a)), fixedPoint(camera.project(b)), cv::Scalar(grey),
+           thickness, cv::LINE_AA, kShift);
 }
 
 }  // namespace
@@ -101,8 +109,10 @@ std::vector<RingPiece> ringPieces(const model::Camera& camera, const model::Targ
   constexpr double kTube = 0.008;  // [m]
   std::vector<RingPiece> pieces;
   for (int i = 0; i < kPieces; ++i) {
-    const Eigen::Vector3d a = ringPoint(target, 2 * kPi * i / kPieces, target.radius + kTube / 2, 0);
-    const Eigen::Vector3d b = ringPoint(target, 2 * kPi * (i + 1) / kPieces, target.radius + kTube / 2, 0);
+    const Eigen::Vector3d a =
+        ringPoint(target, 2 * kPi * i / kPieces, target.radius + kTube / 2, 0);
+    const Eigen::Vector3d b =
+        ringPoint(target, 2 * kPi * (i + 1) / kPieces, target.radius + kTube / 2, 0);
     const double depth = camera.toCamera((a + b) / 2).z();
     if (depth < 0.1)
       continue;
@@ -118,14 +128,17 @@ void drawRingPiece(const RingPiece& piece, const cv::Point& origin, cv::Mat& ima
 
 void drawNet(const model::Camera& camera, const model::Target& target, cv::Mat& image) {
   constexpr int kStrings = 16;
-  constexpr double kBag = 0.22;  // [m], how far the bag reaches behind the ring
+  constexpr double kBag = 0.40;  // [m], how far the bag reaches behind the ring
   for (int i = 0; i < kStrings; ++i) {
     const double angle = 2 * kPi * i / kStrings, next = 2 * kPi * (i + 1) / kStrings;
     for (int ring = 0; ring < 3; ++ring) {
       const double near = ring / 3.0, far = (ring + 1) / 3.0;
-      const Eigen::Vector3d a = ringPoint(target, angle, target.radius * (1 - 0.3 * near), kBag * near);
-      const Eigen::Vector3d b = ringPoint(target, angle, target.radius * (1 - 0.3 * far), kBag * far);
-      const Eigen::Vector3d c = ringPoint(target, next, target.radius * (1 - 0.3 * far), kBag * far);
+      const Eigen::Vector3d a =
+          ringPoint(target, angle, target.radius * (1 - 0.3 * near), kBag * near);
+      const Eigen::Vector3d b =
+          ringPoint(target, angle, target.radius * (1 - 0.3 * far), kBag * far);
+      const Eigen::Vector3d c =
+          ringPoint(target, next, target.radius * (1 - 0.3 * far), kBag * far);
       drawLine(camera, a, b, 85, 0.003, image);
       drawLine(camera, b, c, 85, 0.003, image);
     }

@@ -8,15 +8,15 @@
 namespace fastball::sim_bullet {
 namespace {
 
-constexpr double kAmbient = 95;    // [grey levels], the side away from the lamp
-constexpr double kLamp = 125;      // [grey levels], added where the lamp shines straight on
-constexpr double kMottle = 4;      // [grey levels], the foam is not even: spots of about 1 cm
+constexpr double kAmbient = 95;  // [grey levels], the side away from the lamp
+constexpr double kLamp = 125;    // [grey levels], added where the lamp shines straight on
+constexpr double kMottle = 4;    // [grey levels], the foam is not even: spots of about 1 cm
 
 /// Grey level of the surface with outward unit normal n_W.
 double shade(const Eigen::Vector3d& n_W, const SceneSnapshot& snapshot, const BallLook& look) {
   const Eigen::Vector3d n_B = snapshot.R_WBall.transpose() * n_W;
-  const double mottle = std::sin(17 * n_B.x() + 5 * n_B.y()) * std::sin(15 * n_B.y() - 6 * n_B.z()) *
-                        std::sin(18 * n_B.z() + 4 * n_B.x());
+  const double mottle = std::sin(17 * n_B.x() + 5 * n_B.y()) *
+                        std::sin(15 * n_B.y() - 6 * n_B.z()) * std::sin(18 * n_B.z() + 4 * n_B.x());
   return kAmbient + kLamp * std::max(0.0, n_W.dot(look.to_light_W)) + kMottle * mottle;
 }
 
@@ -38,36 +38,47 @@ struct Patch {
   Patch(const View& view, const SceneSnapshot& snapshot, const BallLook& look)
       : area(ballBounds(view.rig.camera, snapshot.p_WBall, look)),
         c_C(view.rig.camera.toCamera(snapshot.p_WBall)),
-        limb(look.radius / std::sqrt(std::max(1e-12, c_C.squaredNorm() - look.radius * look.radius))) {}
+        limb(look.radius /
+             std::sqrt(std::max(1e-12, c_C.squaredNorm() - look.radius * look.radius))) {}
 
   /// 1 on the axis of the cone, 0 on the outline, negative outside.
-  double inside(const Eigen::Vector3d& d) const { return 1 - d.cross(c_C).norm() / (d.dot(c_C) * limb); }
+  double inside(const Eigen::Vector3d& d) const {
+    return 1 - d.cross(c_C).norm() / (d.dot(c_C) * limb);
+  }
 
   /// Outward normal in the camera frame where the ray meets the ball, or of the outline's nearest point.
   Eigen::Vector3d normal(const Eigen::Vector3d& d, double radius) const {
     const double along = d.dot(c_C) / d.squaredNorm();
-    const double under_root = along * along - (c_C.squaredNorm() - radius * radius) / d.squaredNorm();
+    const double under_root =
+        along * along - (c_C.squaredNorm() - radius * radius) / d.squaredNorm();
     return ((along - std::sqrt(std::max(0.0, under_root))) * d - c_C).normalized();
   }
 };
 
 }  // namespace
 
-cv::Rect ballBounds(const model::Camera& camera, const Eigen::Vector3d& p_WBall, const BallLook& look) {
+cv::Rect ballBounds(const model::Camera& camera,
+                    const Eigen::Vector3d& p_WBall,
+                    const BallLook& look) {
   const Eigen::Vector3d c = camera.toCamera(p_WBall);
   if (c.z() < 3 * look.radius || c.head<2>().norm() > 1.2 * c.z())
     return {};
   const Eigen::Vector2d centre = camera.distort(c.head<2>() / c.z());
   // The outline's long half axis is r / cos(angle off the axis), for angles as small as these.
-  const double reach = camera.fx * look.radius / c.z() * std::sqrt(1 + (c.head<2>() / c.z()).squaredNorm()) * 1.1 +
-                       4 * look.blur + 2;
-  const cv::Point low(static_cast<int>(std::floor(centre.x() - reach)), static_cast<int>(std::floor(centre.y() - reach)));
+  const double reach =
+      camera.fx * look.radius / c.z() * std::sqrt(1 + (c.head<2>() / c.z()).squaredNorm()) * 1.1 +
+      4 * look.blur + 2;
+  const cv::Point low(static_cast<int>(std::floor(centre.x() - reach)),
+                      static_cast<int>(std::floor(centre.y() - reach)));
   const cv::Point high(static_cast<int>(std::ceil(centre.x() + reach)) + 1,
                        static_cast<int>(std::ceil(centre.y() + reach)) + 1);
   return cv::Rect(low, high) & cv::Rect(0, 0, camera.width, camera.height);
 }
 
-void drawBall(const View& view, const SceneSnapshot& snapshot, const BallLook& look, const cv::Point& origin,
+void drawBall(const View& view,
+              const SceneSnapshot& snapshot,
+              const BallLook& look,
+              const cv::Point& origin,
               cv::Mat& image) {
   const Patch patch(view, snapshot, look);
   const cv::Rect area = patch.area & cv::Rect(origin, image.size());

@@ -16,11 +16,16 @@ struct BallLook {
 };
 
 /// A rectangle that holds the ball's outline and its blur; empty if the ball is not in front of the camera.
-cv::Rect ballBounds(const model::Camera& camera, const Eigen::Vector3d& p_WBall, const BallLook& look);
+cv::Rect ballBounds(const model::Camera& camera,
+                    const Eigen::Vector3d& p_WBall,
+                    const BallLook& look);
 
 /// Draws the ball by asking of each pixel's ray how it passes the sphere, so that the outline is the true one: a cone's section,
 /// bent by the lens. `origin` is the image's own corner in the full image; CV_8U.
-void drawBall(const View& view, const SceneSnapshot& snapshot, const BallLook& look, const cv::Point& origin,
+void drawBall(const View& view,
+              const SceneSnapshot& snapshot,
+              const BallLook& look,
+              const cv::Point& origin,
               cv::Mat& image);
 
 }  // namespace fastball::sim_bullet

@@ -10,10 +10,10 @@ namespace fastball::sim_bullet {
 
 /// One camera of the rig: where its images go and how it sees.
 struct RigCamera {
-  std::string channel;    ///< channel of its images, e.g. "CAMERA_LEFT"
+  std::string channel;  ///< channel of its images, e.g. "CAMERA_LEFT"
   model::Camera camera;
-  double rate = 0;        ///< [Hz]
-  double exposure = 0;    ///< [s]
+  double rate = 0;      ///< [Hz]
+  double exposure = 0;  ///< [s]
 };
 
 /// The section `cameras` of the experiment file.
@@ -28,7 +28,9 @@ struct CameraRigOptions {
 
 /// Camera frame at p_WCamera: z towards p_WLookAt, x horizontal to the right, y down.
 /// @throw std::invalid_argument if the two points lie on one vertical line.
-void lookAt(const Eigen::Vector3d& p_WCamera, const Eigen::Vector3d& p_WLookAt, model::Camera& camera);
+void lookAt(const Eigen::Vector3d& p_WCamera,
+            const Eigen::Vector3d& p_WLookAt,
+            model::Camera& camera);
 
 /// Reads the section of an experiment file. @throw config::ConfigError
 CameraRigOptions readCameraRig(const std::string& path);

@@ -8,8 +8,8 @@
 namespace fastball::sim_bullet {
 namespace {
 
-constexpr int kFieldMargin = 509;              // [px], how far an image may be moved over the field
-constexpr std::size_t kLargestImage = 60000;   // [bytes], image_t
+constexpr int kFieldMargin = 509;             // [px], how far an image may be moved over the field
+constexpr std::size_t kLargestImage = 60000;  // [bytes], image_t
 
 /// What moves, as one camera sees it at the moments of an exposure.
 struct Motion {
@@ -43,7 +43,11 @@ Motion motionOf(const Frame& frame) {
 }
 
 /// Draws one moment, the farthest first: limbs behind the ball, the ball, limbs and ring before it.
-void drawMoment(const Frame& frame, const Motion& motion, std::size_t i, bool with_limbs, const cv::Point& origin,
+void drawMoment(const Frame& frame,
+                const Motion& motion,
+                std::size_t i,
+                bool with_limbs,
+                const cv::Point& origin,
                 cv::Mat& layer) {
   const double depth = motion.ball_depth[i];
   if (with_limbs) {
@@ -75,7 +79,12 @@ void drawMoment(const Frame& frame, const Motion& motion, std::size_t i, bool wi
 }
 
 /// The mean of moments first, first + step, ... over a part of the image; CV_8U.
-cv::Mat exposePart(const Frame& frame, const Motion& motion, const cv::Rect& area, bool with_limbs, int first, int step) {
+cv::Mat exposePart(const Frame& frame,
+                   const Motion& motion,
+                   const cv::Rect& area,
+                   bool with_limbs,
+                   int first,
+                   int step) {
   cv::Mat sum = cv::Mat::zeros(area.size(), CV_16U);
   cv::Mat layer;
   int count = 0;
@@ -125,7 +134,8 @@ void exposeBackground(const cv::Mat& background, const cv::Mat& noise, cv::Mat& 
 /// A well mixed number from a seed and what it is for.
 uint64_t mixed(int64_t seed, int camera, int64_t frame) {
   uint64_t h = static_cast<uint64_t>(seed);
-  for (const uint64_t part : {static_cast<uint64_t>(camera) + 1, static_cast<uint64_t>(frame) + 1}) {
+  for (const uint64_t part :
+       {static_cast<uint64_t>(camera) + 1, static_cast<uint64_t>(frame) + 1}) {
     h += 0x9E3779B97F4A7C15ULL * part;
     h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ULL;
     h = (h ^ (h >> 27)) * 0x94D049BB133111EBULL;
@@ -144,7 +154,8 @@ NoiseField::NoiseField(const cv::Size& size, double sigma)
 
 cv::Mat NoiseField::at(int64_t seed, int camera, int64_t frame) const {
   const uint64_t h = mixed(seed, camera, frame);
-  const cv::Point place(static_cast<int>(h % kFieldMargin), static_cast<int>((h >> 32) % kFieldMargin));
+  const cv::Point place(static_cast<int>(h % kFieldMargin),
+                        static_cast<int>((h >> 32) % kFieldMargin));
   return field_(cv::Rect(place, size_));
 }
 
@@ -158,10 +169,12 @@ cv::Mat drawFrame(const Frame& frame) {
       expose(exposePart(frame, motion, area, with_limbs, first, step), noise(area), image(area));
   };
   if ((motion.ball_area & motion.figure_area).empty()) {
-    draw(motion.figure_area, true, motion.figure_still ? kSubExposures / 2 : 0, motion.figure_still ? kSubExposures : 2);
+    draw(motion.figure_area, true, motion.figure_still ? kSubExposures / 2 : 0,
+         motion.figure_still ? kSubExposures : 2);
     draw(motion.ball_area, false, 0, 1);
   } else {
-    draw(motion.figure_area, true, motion.figure_still ? kSubExposures / 2 : 0, motion.figure_still ? kSubExposures : 2);
+    draw(motion.figure_area, true, motion.figure_still ? kSubExposures / 2 : 0,
+         motion.figure_still ? kSubExposures : 2);
     draw(motion.ball_area, true, 0, 1);
   }
   return image;
@@ -177,8 +190,9 @@ RenderedImage renderFrame(const Frame& frame) {
     if (image.jpeg.size() <= kLargestImage)
       return image;
   }
-  throw std::runtime_error("an image of " + std::to_string(image.jpeg.size()) + " bytes does not fit a message of " +
-                           std::to_string(kLargestImage) + " at any quality");
+  throw std::runtime_error("an image of " + std::to_string(image.jpeg.size()) +
+                           " bytes does not fit a message of " + std::to_string(kLargestImage) +
+                           " at any quality");
 }
 
 }  // namespace fastball::sim_bullet

@@ -16,7 +16,7 @@ inline constexpr int kSubExposures = 5;
 
 /// A finished image.
 struct RenderedImage {
-  int camera = 0;             ///< index into CameraRig::cameras()
+  int camera = 0;  ///< index into CameraRig::cameras()
   int64_t scene_id = 0;
   int64_t frame = 0;          ///< of this camera, 0 is the first of the scene
   int64_t utime = 0;          ///< [us], middle of the exposure

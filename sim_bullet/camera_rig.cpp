@@ -15,7 +15,8 @@ constexpr std::size_t kMostPending = 32;
 SceneSnapshot between(const SceneSnapshot& a, const SceneSnapshot& b, double share) {
   SceneSnapshot s;
   s.p_WBall = a.p_WBall + share * (b.p_WBall - a.p_WBall);
-  s.R_WBall = Eigen::Quaterniond(a.R_WBall).slerp(share, Eigen::Quaterniond(b.R_WBall)).toRotationMatrix();
+  s.R_WBall =
+      Eigen::Quaterniond(a.R_WBall).slerp(share, Eigen::Quaterniond(b.R_WBall)).toRotationMatrix();
   s.q_arm = a.q_arm + share * (b.q_arm - a.q_arm);
   s.q_hand = a.q_hand + share * (b.q_hand - a.q_hand);
   return s;
@@ -35,7 +36,8 @@ struct CameraRig::Workers {
     }
   }
   std::future<RenderedImage> run(std::shared_ptr<const Frame> frame) {
-    std::packaged_task<RenderedImage()> task([frame = std::move(frame)] { return renderFrame(*frame); });
+    std::packaged_task<RenderedImage()> task(
+        [frame = std::move(frame)] { return renderFrame(*frame); });
     std::future<RenderedImage> result = task.get_future();
     if (pool)
       boost::asio::post(*pool, std::move(task));
@@ -46,7 +48,9 @@ struct CameraRig::Workers {
   std::unique_ptr<boost::asio::thread_pool> pool;
 };
 
-CameraRig::CameraRig(const CameraRigOptions& options, const model::ArmParameters& arm, const model::HandParameters& hand,
+CameraRig::CameraRig(const CameraRigOptions& options,
+                     const model::ArmParameters& arm,
+                     const model::HandParameters& hand,
                      double ball_radius)
     : options_(options),
       figure_(std::make_shared<Figure>(arm, hand)),
@@ -70,7 +74,10 @@ int64_t CameraRig::frameTime(int64_t index) const {
   return std::llround(static_cast<double>(index) * 1e6 / options_.cameras.front().rate);
 }
 
-void CameraRig::begin(int64_t scene_id, int64_t seed, int64_t start_utime, int64_t end_utime,
+void CameraRig::begin(int64_t scene_id,
+                      int64_t seed,
+                      int64_t start_utime,
+                      int64_t end_utime,
                       const model::Target& target) {
   flush();
   pending_.clear();
@@ -80,7 +87,8 @@ void CameraRig::begin(int64_t scene_id, int64_t seed, int64_t start_utime, int64
     const RigCamera& rig = options_.cameras[i];
     cv::Mat background = rooms_[i].clone();
     drawNet(rig.camera, target, background);
-    views_.push_back(std::make_shared<View>(View{rig, rays_[i], background, ringPieces(rig.camera, target)}));
+    views_.push_back(
+        std::make_shared<View>(View{rig, rays_[i], background, ringPieces(rig.camera, target)}));
   }
   scene_id_ = scene_id;
   seed_ = seed;
@@ -99,7 +107,8 @@ SceneSnapshot CameraRig::at(double utime) const {
   while (i + 1 < history_.size() && static_cast<double>(history_[i].utime) < utime)
     ++i;
   const SceneSnapshot &a = history_[i - 1], &b = history_[i];
-  return between(a, b, (utime - static_cast<double>(a.utime)) / static_cast<double>(b.utime - a.utime));
+  return between(a, b,
+                 (utime - static_cast<double>(a.utime)) / static_cast<double>(b.utime - a.utime));
 }
 
 void CameraRig::take(int64_t utime) {
@@ -146,7 +155,8 @@ void CameraRig::add(const SceneSnapshot& snapshot) {
 }
 
 bool CameraRig::nextImage(RenderedImage& image) {
-  if (pending_.empty() || pending_.front().wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+  if (pending_.empty() ||
+      pending_.front().wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return false;
   image = pending_.front().get();
   pending_.pop_front();

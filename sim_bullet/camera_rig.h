@@ -21,7 +21,9 @@ namespace fastball::sim_bullet {
 /// draw them or how fast.
 class CameraRig {
  public:
-  CameraRig(const CameraRigOptions& options, const model::ArmParameters& arm, const model::HandParameters& hand,
+  CameraRig(const CameraRigOptions& options,
+            const model::ArmParameters& arm,
+            const model::HandParameters& hand,
             double ball_radius);
   ~CameraRig();
   CameraRig(const CameraRig&) = delete;
@@ -31,7 +33,11 @@ class CameraRig {
 
   /// Begins a scene; images of the scene before that have not been fetched are dropped. Frames whose whole exposure lies in
   /// [start_utime, end_utime] will be taken.
-  void begin(int64_t scene_id, int64_t seed, int64_t start_utime, int64_t end_utime, const model::Target& target);
+  void begin(int64_t scene_id,
+             int64_t seed,
+             int64_t start_utime,
+             int64_t end_utime,
+             const model::Target& target);
   /// The scene at a later time than the call before (others are ignored); call every tick. Between two snapshots motion is
   /// interpolated linearly. May wait when the drawing threads are far behind.
   void add(const SceneSnapshot& snapshot);

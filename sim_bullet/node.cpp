@@ -55,8 +55,7 @@ void requireRealScene(const scene_t& message) {
 }  // namespace
 
 SimulatorSetup loadSetup(const messaging::ProcessOptions& options) {
-  const std::string path =
-      options.config.empty() ? config::defaultExperimentPath() : options.config;
+  const std::string path = config::experimentPath(options.config);
   SimulatorSetup setup;
   setup.experiment = config::loadExperiment(path);
   setup.settings = loadSimulationSettings(path);

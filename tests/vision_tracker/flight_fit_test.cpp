@@ -1,0 +1,171 @@
+// The fit alone: observations made by formula, with known noise.
+#include "vision_tracker/flight_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "sim_bullet/camera_config.h"
+#include "tests/vision_tracker/synthetic_throw.h"
+#include "vision_tracker/sphere_outline.h"
+
+namespace fastball::vision_tracker {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kSigma = 0.1;  // [px]
+
+class FlightFit : public ::testing::Test {
+ protected:
+  FlightFit() {
+    for (const sim_bullet::RigCamera& camera :
+         sim_bullet::readCameraRig(testing::experimentPath()).cameras)
+      cameras_.push_back(camera.camera);
+    target_.p_WTarget = {3, 0, -0.5};
+    target_.radius = 0.1;
+    truth_ = {{0.4, 0.1, 0.3}, {4.6, -0.2, 1.3}};
+    landing_ = model::land(truth_, target_, drag_, kGravity).value();
+  }
+
+  /// Both cameras at 240 Hz up to the share `seen` of the flight; standard deviation `sigma` [px].
+  std::vector<Observation> observe(double sigma, double seen = 0.95) {
+    std::normal_distribution<double> normal;
+    std::vector<Observation> observations;
+    for (int k = 0; k / 240.0 < seen * landing_.time; ++k) {
+      for (int camera = 0; camera < 2; ++camera) {
+        Observation o;
+        o.utime = 5000000 + std::llround(k * 1e6 / 240);
+        o.camera = camera;
+        const auto state =
+            model::fly(truth_, static_cast<double>(o.utime - 5000000) * 1e-6, drag_, kGravity);
+        o.centre = outlineCentre(cameras_[static_cast<std::size_t>(camera)], state.p_WBall,
+                                 prior_.ball_radius) +
+                   sigma * Eigen::Vector2d(normal(random_), normal(random_));
+        o.cov = kSigma * kSigma * Eigen::Matrix2d::Identity();
+        observations.push_back(o);
+      }
+    }
+    return observations;
+  }
+  /// A start that is a few centimetres and per cent wrong.
+  model::BallState guess() const {
+    return {truth_.p_WBall + Eigen::Vector3d(0.02, -0.03, 0.01), 1.05 * truth_.v_WBall};
+  }
+  std::optional<LandingEstimate> landed(const std::vector<Observation>& observations,
+                                        FlightEstimate* flight = nullptr) {
+    const auto fit = fitFlight(observations, 0, cameras_, prior_, guess(), 5000000);
+    if (!fit)
+      return std::nullopt;
+    if (flight != nullptr)
+      *flight = *fit;
+    return landingOf(*fit, target_, kGravity);
+  }
+  double missed(const LandingEstimate& estimate) const {
+    return (estimate.landing - landing_.landing).norm();
+  }
+
+  std::vector<model::Camera> cameras_;
+  FlightPrior prior_{kGravity, 0.07, 0.021, 0.05, 1e-3};
+  double drag_ = 0.08;
+  model::Target target_;
+  model::BallState truth_;
+  model::Landing landing_;
+  std::mt19937 random_{7};
+};
+
+TEST_F(FlightFit, ReturnsWhatMadeTheObservations) {
+  FlightEstimate flight;
+  prior_.drag_sigma = 1;  // so weak that the prior cannot draw the drag away
+  const auto estimate = landed(observe(0), &flight);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(missed(*estimate), 1e-6);
+  EXPECT_NEAR(static_cast<double>(estimate->utime - 5000000), landing_.time * 1e6, 2);
+  EXPECT_NEAR(flight.drag, drag_, 1e-4);
+  EXPECT_LT(flight.residual_px, 1e-4);
+}
+
+TEST_F(FlightFit, CovarianceIsWhatTheErrorsAre) {
+  for (const double seen : {0.6, 0.95}) {
+    constexpr int kThrows = 150;
+    double sum = 0;
+    for (int i = 0; i < kThrows; ++i) {
+      const double drag_sigma = prior_.drag_sigma;
+      drag_ = prior_.drag + drag_sigma * std::normal_distribution<double>()(random_);
+      landing_ = model::land(truth_, target_, drag_, kGravity).value();
+      const auto estimate = landed(observe(kSigma, seen));
+      ASSERT_TRUE(estimate);
+      const Eigen::Vector2d error = estimate->landing - landing_.landing;
+      sum += error.dot(estimate->cov.inverse() * error);
+    }
+    // A mean of 150 chi-squares of two dimensions: 2 +- 0.16; the estimate's covariance carries the scatter of each fit.
+    EXPECT_NEAR(sum / kThrows, 2.0, 0.6) << "share seen " << seen;
+  }
+}
+
+TEST_F(FlightFit, CutsOutliers) {
+  for (int round = 0; round < 10; ++round) {
+    std::vector<Observation> observations = observe(kSigma);
+    for (Observation& o : observations)
+      if (random_() % 7 == 0)
+        o.centre += Eigen::Vector2d(20, -15);
+    const auto estimate = landed(observations);
+    ASSERT_TRUE(estimate);
+    EXPECT_LT(missed(*estimate), 3e-3);
+  }
+}
+
+TEST_F(FlightFit, FindsWhereFreeFlightBegins) {
+  // Before its flight the ball is carried: 25 times, accelerated by 30 m/s^2 along its path.
+  std::vector<Observation> observations = observe(kSigma);
+  std::vector<Observation> carried;
+  std::normal_distribution<double> normal;
+  for (int k = -25; k < 0; ++k) {
+    const double t = k / 240.0;
+    const Eigen::Vector3d p_W =
+        truth_.p_WBall + t * truth_.v_WBall + 15 * t * t * truth_.v_WBall.normalized();
+    for (int camera = 0; camera < 2; ++camera) {
+      Observation o = observations.front();
+      o.utime = 5000000 + std::llround(t * 1e6);
+      o.camera = camera;
+      o.centre =
+          outlineCentre(cameras_[static_cast<std::size_t>(camera)], p_W, prior_.ball_radius) +
+          kSigma * Eigen::Vector2d(normal(random_), normal(random_));
+      carried.push_back(o);
+    }
+  }
+  observations.insert(observations.begin(), carried.begin(), carried.end());
+  std::size_t begin = 0;
+  const auto fit = fitFreeFlight(observations, cameras_, prior_, guess(), 5000000, &begin);
+  ASSERT_TRUE(fit);
+  EXPECT_GT(begin, 30u);
+  EXPECT_LT(begin, 62u);
+  const auto estimate = landingOf(*fit, target_, kGravity);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(missed(*estimate), 2e-3);
+}
+
+TEST_F(FlightFit, UsesTheWholeFlightIfAllOfItIsFree) {
+  std::size_t begin = 99;
+  const auto fit = fitFreeFlight(observe(kSigma), cameras_, prior_, guess(), 5000000, &begin);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(begin, 12u);
+}
+
+TEST_F(FlightFit, RefusesTooFewObservations) {
+  std::vector<Observation> observations = observe(kSigma);
+  observations.resize(7);
+  EXPECT_FALSE(landed(observations));
+  EXPECT_FALSE(fitFreeFlight({}, cameras_, prior_, guess(), 5000000, nullptr));
+}
+
+TEST_F(FlightFit, LandsNowhereIfThePlaneIsNotCrossed) {
+  FlightEstimate away;
+  away.start = {{0, 0, 0}, {-4, 0, 1}};
+  EXPECT_FALSE(landingOf(away, target_, kGravity));
+}
+
+}  // namespace
+}  // namespace fastball::vision_tracker

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "model/camera.h"
+#include "vision_tracker/background.h"
+#include "vision_tracker/ball_fit.h"
+
+namespace fastball::vision_tracker {
+
+/// What the detector takes for a ball.
+struct DetectorOptions {
+  double ball_radius = 0;            ///< [m]
+  double nearest = 0, farthest = 0;  ///< [m], the ball's depth before a camera
+  double blur = 0;                   ///< [px], standard deviation of lens and pixel together
+  double noise_floor = 0;            ///< [px], per axis, added to the fit's own covariance
+};
+
+/// Finds the ball in the images of one camera.
+class BallDetector {
+ public:
+  BallDetector(const model::Camera& camera, double exposure, const DetectorOptions& options);
+
+  /// Ball-like round things anywhere in the image, the roundest first, at most four.
+  std::vector<BallFit> search(const cv::Mat& image, const Background& background) const;
+  /// The ball where it is expected: at p_WBall, +-`uncertainty` [px], with velocity v_WBall (for the blur of the exposure).
+  /// A fit that has not converged means that it is not there.
+  BallFit at(const cv::Mat& image,
+             const Background& background,
+             const Eigen::Vector3d& p_WBall,
+             const Eigen::Vector3d& v_WBall,
+             double uncertainty) const;
+  /// The rectangle that a ball there may touch.
+  cv::Rect area(const Eigen::Vector3d& p_WBall) const;
+
+ private:
+  BallFit accepted(BallFit fit, double expected_radius, double tolerance, double noise) const;
+
+  model::Camera camera_;
+  double exposure_;
+  DetectorOptions options_;
+};
+
+}  // namespace fastball::vision_tracker

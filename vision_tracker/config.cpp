@@ -1,0 +1,33 @@
+#include "vision_tracker/config.h"
+
+#include "config/experiment.h"
+
+namespace fastball::vision_tracker {
+
+TrackerConfig readTracker(const std::string& path) {
+  const config::Experiment experiment = config::loadExperiment(path);
+  config::Section section = config::processSection(path, "tracker");
+  TrackerConfig config;
+  DetectorOptions& detector = config.tracker.detector;
+  detector.ball_radius = experiment.ball.radius;
+  const Eigen::VectorXd depth = section.vector("depth", 2, {0.2, 100});
+  detector.nearest = depth[0];
+  detector.farthest = depth[1];
+  if (!(detector.nearest < detector.farthest))
+    throw section.error("depth", "must give the nearer depth first");
+  detector.blur = section.number("blur", {0.3, 5});
+  detector.noise_floor = section.number("noise_floor", {1e-3, 5});
+  FlightPrior& prior = config.tracker.prior;
+  prior.gravity = experiment.arm.gravity;
+  prior.ball_radius = experiment.ball.radius;
+  prior.drag = experiment.ball.dragPerMetre();
+  prior.drag_sigma = prior.drag * section.number("drag_uncertainty", {1e-3, 10});
+  prior.bias_sigma = section.number("bias", {1e-4, 10});
+  prior.alike = section.number("alike", {1, 1000});
+  config.tracker.longest_gap = section.number("longest_gap", {0.01, 1});
+  config.silence = section.number("silence", {0.1, 60});
+  section.finish();
+  return config;
+}
+
+}  // namespace fastball::vision_tracker

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "vision_tracker/throw_tracker.h"
+
+namespace fastball::vision_tracker {
+
+/// The tracker's options from an experiment file: its section `tracker`, and the ball and gravity of the shared part.
+struct TrackerConfig {
+  TrackerOptions tracker;
+  double silence = 0;  ///< [s] of wall time without an image after which the images have ended
+};
+
+/// @throw config::ConfigError
+TrackerConfig readTracker(const std::string& path);
+
+}  // namespace fastball::vision_tracker

@@ -1,0 +1,272 @@
+#include "vision_tracker/throw_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "vision_tracker/sphere_outline.h"
+
+namespace fastball::vision_tracker {
+namespace {
+
+constexpr int64_t kSameMoment = 500;  // [us], cameras' images nearer than this belong together
+constexpr int kImagesToLearn = 4;     // of each camera, before foreground means anything
+constexpr double kClear = 1.2;  // ball radii before the target plane; nearer it may touch the ring
+constexpr int kSureTrack = 40;  // observations that no arm imitates
+constexpr int kLeastForLanding = 16;  // observations
+constexpr int kMostMisses = 15;       // times
+
+bool same(const CameraSetup& a, const CameraSetup& b) {
+  return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
+         a.camera.height == b.camera.height && a.camera.fx == b.camera.fx &&
+         a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy &&
+         a.camera.distortion == b.camera.distortion && a.camera.R_CW == b.camera.R_CW &&
+         a.camera.p_CW == b.camera.p_CW;
+}
+
+}  // namespace
+
+ThrowTracker::ThrowTracker(const TrackerOptions& options)
+    : options_(options), finder_(options.prior.ball_radius, options.prior.gravity) {
+  cv::setNumThreads(0);  // the images are small and the other processes need the cores
+}
+
+void ThrowTracker::setCamera(int index, const CameraSetup& setup) {
+  const auto i = static_cast<std::size_t>(index);
+  if (i > eyes_.size())
+    throw std::invalid_argument("cameras must be set one after another from 0");
+  if (i < eyes_.size() && same(eyes_[i].setup, setup))
+    return;
+  const Eye eye{setup, BallDetector(setup.camera, setup.exposure, options_.detector), {}};
+  if (i == eyes_.size()) {
+    eyes_.push_back(eye);
+    cameras_.push_back(setup.camera);
+  } else {
+    eyes_[i] = eye;
+    cameras_[i] = setup.camera;
+  }
+  begin(target_);
+}
+
+void ThrowTracker::begin(const model::Target& target) {
+  target_ = target;
+  state_ = State::kWaiting;
+  finder_.reset();
+  for (Eye& eye : eyes_)
+    eye.background.reset();
+  moment_ = {};
+  seen_ = 0;
+  known_ = 0;
+  observations_.clear();
+  flight_.reset();
+  predicted_.reset();
+  misses_ = 0;
+  images_ = 0;
+  lost_.clear();
+  track_report_.reset();
+  landing_report_.reset();
+}
+
+double ThrowTracker::distanceAt(int64_t utime) const {
+  return target_.distance(flight_->at(utime, options_.prior.gravity).p_WBall);
+}
+
+Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
+  if (state_ == State::kLanded)
+    return {};
+  ++images_;
+  if (seen_ != 0 && utime - moment_.utime > kSameMoment) {
+    closeMoment();
+    if (state_ == State::kLanded)
+      return {};
+  }
+  if (seen_ == 0) {
+    moment_ = {utime, std::vector<std::vector<BallFit>>(eyes_.size())};
+    known_ = observations_.size();
+  }
+  Sighting sighting;
+  Eye& eye = eyes_[static_cast<std::size_t>(camera)];
+  cv::Rect leave;
+  if (eye.background.images() >= kImagesToLearn) {
+    sighting = flight_ ? followIn(camera, utime, image) : searchIn(camera, image);
+    if (flight_)
+      leave = eye.detector.area(flight_->at(utime, options_.prior.gravity).p_WBall);
+  }
+  eye.background.learn(image, leave);
+  seen_ |= 1U << camera;
+  if (seen_ == (1U << eyes_.size()) - 1)
+    closeMoment();
+  return sighting;
+}
+
+Sighting ThrowTracker::searchIn(int camera, const cv::Mat& image) {
+  const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
+  std::vector<BallFit>& fits = moment_.by_camera[static_cast<std::size_t>(camera)];
+  fits = eye.detector.search(image, eye.background);
+  return fits.empty() ? Sighting{} : Sighting{true, fits.front()};
+}
+
+Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image) {
+  const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
+  const model::BallState expected = flight_->at(utime, options_.prior.gravity);
+  // A young track predicts badly, and so does one that has missed the ball.
+  const double uncertainty = (flight_->used < 24 ? 8.0 : 4.0) + 2.0 * misses_;
+  const BallFit fit =
+      eye.detector.at(image, eye.background, expected.p_WBall, expected.v_WBall, uncertainty);
+  if (!fit.converged)
+    return {};
+  // Near the plane the ring may touch the ball: seen, but no longer a part of the free flight.
+  if (target_.distance(expected.p_WBall) > kClear * options_.prior.ball_radius)
+    observe(utime, camera, fit, expected.p_WBall);
+  return {true, fit};
+}
+
+void ThrowTracker::observe(int64_t utime, int camera, const BallFit& fit, const Eigen::Vector3d& p_WBall) {
+  // An outline of a wrong size is wrong somewhere by as much: a finger or the ring covers a part of it.
+  const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
+  const double off = fit.radius - sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
+  observations_.push_back({utime, camera, fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity()});
+}
+
+void ThrowTracker::closeMoment() {
+  seen_ = 0;
+  if (!flight_) {
+    if (const auto found = finder_.add(moment_, cameras_))
+      startTrack(*found);
+    return;
+  }
+  if (observations_.size() > known_) {
+    misses_ = 0;
+    updateTrack();
+  } else {
+    ++misses_;
+  }
+  if (flight_ && passed(moment_.utime))
+    land();
+  else if (flight_ && misses_ > std::min(kMostMisses, 3 + flight_->used / 8))
+    loseTrack();
+}
+
+bool ThrowTracker::passed(int64_t utime) const {
+  const auto period = static_cast<int64_t>(1e6 / eyes_.front().setup.rate);
+  return predicted_ && utime >= predicted_->utime + period;
+}
+
+void ThrowTracker::startTrack(const FlightFinder::Found& found) {
+  observations_.clear();
+  for (const auto& [utime, point] : found.points)
+    for (const int k : {0, 1})
+      observe(utime, point.cameras[k], point.fits[k], point.p_W);
+  flight_ = fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
+  misses_ = 0;
+  if (!flight_) {
+    observations_.clear();
+    return;
+  }
+  state_ = State::kTracking;
+  finder_.reset();
+  predicted_ = landingOf(*flight_, target_, options_.prior.gravity);
+}
+
+void ThrowTracker::updateTrack() {
+  const auto flight = fitFreeFlight(observations_, cameras_, options_.prior, flight_->start,
+                                    flight_->utime, nullptr);
+  if (!flight)
+    return;
+  flight_ = flight;
+  predicted_ = landingOf(*flight_, target_, options_.prior.gravity);
+  if (!predicted_)
+    return;
+  TrackReport report;
+  report.utime = observations_.back().utime;
+  report.observations = flight_->used;
+  report.state = flight_->at(report.utime, options_.prior.gravity);
+  report.drag = flight_->drag;
+  report.landing = *predicted_;
+  track_report_ = report;
+}
+
+void ThrowTracker::loseTrack() {
+  const int64_t last = observations_.back().utime;
+  const bool sure = flight_->used >= kSureTrack;
+  const double gap = predicted_ ? static_cast<double>(predicted_->utime - last) * 1e-6 : 1e9;
+  if (sure && gap <= options_.longest_gap)
+    return;  // it is nearly there, and the flight says the rest
+  lost_ = fmt::format("the ball was lost {:.3f} m before the target plane", distanceAt(last));
+  if (sure) {
+    giveUp(lost_);
+    return;
+  }
+  // Too short to be sure that it was the ball: look for another.
+  flight_.reset();
+  predicted_.reset();
+  observations_.clear();
+  finder_.reset();
+  misses_ = 0;
+  state_ = State::kWaiting;
+}
+
+void ThrowTracker::land() {
+  // The track's own idea of the distance was younger than the flight is now: choose the clear observations again.
+  const auto end =
+      std::remove_if(observations_.begin(), observations_.end(), [&](const Observation& o) {
+        return distanceAt(o.utime) <= kClear * options_.prior.ball_radius;
+      });
+  observations_.erase(end, observations_.end());
+  const auto flight = fitFreeFlight(observations_, cameras_, options_.prior, flight_->start,
+                                    flight_->utime, nullptr);
+  const auto landing = flight ? landingOf(*flight, target_, options_.prior.gravity) : std::nullopt;
+  if (!landing || flight->used < kLeastForLanding) {
+    giveUp(fmt::format("only {} observations agree with a flight, {} are needed",
+                       flight ? flight->used : 0, kLeastForLanding));
+    return;
+  }
+  const double gap = static_cast<double>(landing->utime - observations_.back().utime) * 1e-6;
+  if (gap > options_.longest_gap) {
+    giveUp(
+        fmt::format("the ball was last seen {:.3f} s before it crossed the target plane, at most "
+                    "{} s are allowed",
+                    gap, options_.longest_gap));
+    return;
+  }
+  flight_ = flight;
+  predicted_ = landing;
+  landing_report_ = LandingReport{true, "", *landing, flight->used, flight->residual_px};
+  state_ = State::kLanded;
+}
+
+void ThrowTracker::giveUp(const std::string& why) {
+  landing_report_ = LandingReport{};
+  landing_report_->message = "not measured: " + why;
+  state_ = State::kLanded;
+}
+
+void ThrowTracker::end() {
+  if (state_ == State::kLanded)
+    return;
+  if (seen_ != 0)
+    closeMoment();
+  if (state_ == State::kLanded)
+    return;
+  if (images_ == 0)
+    giveUp("no image came");
+  else if (flight_)
+    giveUp(fmt::format("the images ended when the ball was {:.3f} m before the target plane",
+                       distanceAt(observations_.back().utime)));
+  else
+    giveUp(lost_.empty()
+               ? fmt::format("nothing that flies like the ball is in the {} images", images_)
+               : lost_);
+}
+
+std::optional<TrackReport> ThrowTracker::takeTrack() {
+  return std::exchange(track_report_, std::nullopt);
+}
+
+std::optional<LandingReport> ThrowTracker::takeLanding() {
+  return std::exchange(landing_report_, std::nullopt);
+}
+
+}  // namespace fastball::vision_tracker
