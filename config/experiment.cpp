@@ -98,4 +98,8 @@ std::string defaultExperimentPath() {
   return (program.parent_path().parent_path() / "share/fastball/config/experiment.yaml").string();
 }
 
+std::string experimentPath(const std::string& named) {
+  return named.empty() ? defaultExperimentPath() : named;
+}
+
 }  // namespace fastball::config

@@ -35,4 +35,7 @@ Section processSection(const std::string& path, const std::string& process);
 /// the source tree that the program was built from, else the installed one.
 std::string defaultExperimentPath();
 
+/// `named`, or the default experiment file if it is empty.
+std::string experimentPath(const std::string& named);
+
 }  // namespace fastball::config

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "config/experiment.h"
 #include "logger/node.h"
 #include "logger/run_record.h"
 #include "messaging/process.h"
@@ -11,11 +12,12 @@ int main(int argc, char** argv) {
   logger::RunRecord record;
   record.version = messaging::version();
   return messaging::processMain(
-      argc, argv, "logger", "Writes every message to an LCM log file, and beside it what the run was.",
+      argc, argv, "logger",
+      "Writes every message to an LCM log file, and beside it what the run was.",
       [&](messaging::LcmEndpoint& endpoint, const messaging::Clock& clock,
           const messaging::ProcessOptions& options) {
         auto node = logger::makeNode(endpoint, clock, log_path);
-        record.config_path = options.config;
+        record.config_path = config::experimentPath(options.config);
         logger::writeRunRecord(log_path, record, clock.wallUs());
         return node;
       },

@@ -95,8 +95,7 @@ class PlannerNode : public messaging::Node {
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options) {
-  const std::string path =
-      options.config.empty() ? config::defaultExperimentPath() : options.config;
+  const std::string path = config::experimentPath(options.config);
   return std::make_unique<PlannerNode>(endpoint, clock, loadConfig(path));
 }
 

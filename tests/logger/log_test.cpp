@@ -132,7 +132,8 @@ TEST_F(LogFiles, AnUnwritablePathIsRefusedByName) {
 TEST_F(LogFiles, TheRecordBesideTheLogHoldsTheConfigurationAsItWas) {
   std::ofstream(path("experiment.yaml")) << "arm: arm.yaml\n";
   std::ofstream(path("arm.yaml")) << "profile: wam4-48v\n";
-  writeRunRecord(path("a.lcmlog"), {"0.1.0", "fastball run --seed 4", path("experiment.yaml"), 4}, 17);
+  writeRunRecord(path("a.lcmlog"), {"0.1.0", "fastball run --seed 4", path("experiment.yaml"), 4},
+                 17);
   std::ifstream file(runRecordPath(path("a.lcmlog")));
   const auto record = nlohmann::json::parse(file);
   EXPECT_EQ(record.at("seed"), 4);

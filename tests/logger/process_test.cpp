@@ -54,7 +54,8 @@ class LoggerProcess : public testing::Test {
   }
   int count(const std::string& channel) const {
     int messages = 0;
-    logger::readLog(log_, [&](const logger::LogEntry& entry) { messages += entry.channel == channel; });
+    logger::readLog(log_,
+                    [&](const logger::LogEntry& entry) { messages += entry.channel == channel; });
     return messages;
   }
 

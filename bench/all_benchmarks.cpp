@@ -1,0 +1,18 @@
+#include "bench/messaging_rows.h"
+#include "bench/model_rows.h"
+#include "bench/row.h"
+#include "bench/run_rows.h"
+#include "bench/scene_rows.h"
+
+namespace fastball::bench {
+
+std::vector<Benchmark> allBenchmarks() {
+  std::vector<Benchmark> all;
+  for (const auto& some :
+       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), sceneBenchmarks()}) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+}  // namespace fastball::bench

@@ -1,0 +1,49 @@
+#include "bench/model_rows.h"
+
+#include <benchmark/benchmark.h>
+
+#include "bench/timing.h"
+#include "config/experiment.h"
+#include "model/arm.h"
+#include "model/ball_flight.h"
+
+namespace fastball::bench {
+namespace {
+
+constexpr double kMicro = 1e6;
+constexpr double kControlTickUs = 1000;
+
+Row inverseDynamics() {
+  const config::Experiment experiment = config::loadExperiment(config::defaultExperimentPath());
+  const model::Arm arm(experiment.arm, experiment.hand.payload);
+  model::Vector4 q = experiment.q_rest;
+  const model::Vector4 qd = 0.5 * experiment.arm.qd_max;
+  const model::Vector4 qdd = model::Vector4::Constant(10.0);
+  const double rnea = secondsPerCall("dynamics.inverse_us", [&] {
+    benchmark::DoNotOptimize(q);
+    benchmark::DoNotOptimize(arm.inverseDynamics(q, qd, qdd));
+  });
+  return {"dynamics.inverse_us", rnea * kMicro,  "us",
+          "control tick",        kControlTickUs, "4 joints, payload, drive inertia"};
+}
+
+Row landing() {
+  const config::Experiment experiment = config::loadExperiment(config::defaultExperimentPath());
+  const model::BallState start{{0.5, 0.0, 0.5}, {6.0, 0.0, 1.0}};
+  double drag = experiment.ball.dragPerMetre();
+  const double seconds = secondsPerCall("flight.land_us", [&] {
+    benchmark::DoNotOptimize(drag);
+    benchmark::DoNotOptimize(model::land(start, experiment.target, drag, experiment.arm.gravity));
+  });
+  return {
+      "flight.land_us", seconds * kMicro, "us",
+      "none",           std::nullopt,     "Runge-Kutta 4 with drag, to the target plane 3 m away"};
+}
+
+}  // namespace
+
+std::vector<Benchmark> modelBenchmarks() {
+  return {{"dynamics.inverse_us", inverseDynamics}, {"flight.land_us", landing}};
+}
+
+}  // namespace fastball::bench

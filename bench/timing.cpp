@@ -1,0 +1,47 @@
+#include "bench/timing.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace fastball::bench {
+namespace {
+
+constexpr int kFirstPort = 20000;
+constexpr int kPorts = 20000;
+
+class Collector : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context& /*context*/) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      seconds = run.real_accumulated_time / static_cast<double>(run.iterations);
+    }
+  }
+  double seconds = -1;
+};
+
+}  // namespace
+
+double secondsPerCall(const std::string& id, const std::function<void()>& call) {
+  benchmark::ClearRegisteredBenchmarks();
+  benchmark::RegisterBenchmark(id.c_str(), [&call](benchmark::State& state) {
+    for (auto _ : state)
+      call();
+  });
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  benchmark::ClearRegisteredBenchmarks();
+  if (collector.seconds < 0)
+    throw std::runtime_error(fmt::format("{} could not be measured", id));
+  return collector.seconds;
+}
+
+std::string privateLcmUrl() {
+  return fmt::format("udpm://239.255.76.67:{}?ttl=0", kFirstPort + getpid() % kPorts);
+}
+
+}  // namespace fastball::bench

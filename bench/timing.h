@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace fastball::bench {
+
+/// Seconds that one call takes, by Google Benchmark: wall time, mean over as many calls as half a second holds.
+double secondsPerCall(const std::string& id, const std::function<void()>& call);
+
+/// A URL on a port of its own, so that the measurement disturbs nobody on this machine.
+std::string privateLcmUrl();
+
+}  // namespace fastball::bench

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace fastball::launch {
+
+/// Adds a subcommand to the `fastball` command. When the command line names it, it runs while the
+/// line is being parsed and leaves its exit status (messaging/process.h) in `exit_status`; what it
+/// throws means: std::invalid_argument wrong usage or a bad input file, any other std::exception a
+/// failed experiment.
+void addRunCommand(CLI::App& app, int& exit_status);
+void addBenchCommand(CLI::App& app, int& exit_status);
+void addReplayCommand(CLI::App& app, int& exit_status);
+void addReportCommand(CLI::App& app, int& exit_status);
+void addReplayCommand(CLI::App& app, int& exit_status);
+void addReportCommand(CLI::App& app, int& exit_status);
+
+}  // namespace fastball::launch

@@ -1,0 +1,112 @@
+// What the experiment says of itself: its state, its progress, and whom it waits for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "launch/experiment_node.h"
+
+namespace fastball::launch {
+namespace {
+
+constexpr double kMicro = 1e6;
+
+const char* phaseName(ExperimentNode::Phase phase) {
+  switch (phase) {
+    case ExperimentNode::Phase::kPlanning:
+      return "planning";
+    case ExperimentNode::Phase::kArming:
+      return "arming";
+    case ExperimentNode::Phase::kStarting:
+      return "starting";
+    case ExperimentNode::Phase::kThrowing:
+      return "throwing";
+    case ExperimentNode::Phase::kDone:
+      return "done";
+    case ExperimentNode::Phase::kFailed:
+      return "failed";
+  }
+  return "failed";
+}
+
+const char* armPhaseName(int8_t phase) {
+  switch (phase) {
+    case arm_command_t::APPROACH:
+      return "approach";
+    case arm_command_t::READY:
+      return "ready";
+    case arm_command_t::SWING:
+      return "swing";
+    case arm_command_t::FOLLOW_THROUGH:
+      return "follow-through";
+    case arm_command_t::HOLD:
+      return "hold";
+    case arm_command_t::BRAKE:
+      return "brake";
+    default:
+      return "rest";
+  }
+}
+
+}  // namespace
+
+std::string ExperimentNode::missing(const std::vector<std::string>& names,
+                                    const std::string& state) const {
+  std::string list;
+  for (const std::string& process : names) {
+    if (roster_.holds(process, number_, state))
+      continue;
+    const heartbeat_t* heartbeat = roster_.newest(process);
+    if (!list.empty())
+      list += ", ";
+    list += process;
+    if (heartbeat == nullptr) {
+      list += " (never heard)";
+    } else if (!heartbeat->detail.empty()) {
+      list += " (" + heartbeat->detail + ")";
+    } else {
+      list += " (" + heartbeat->state + ")";
+    }
+  }
+  return list;
+}
+
+std::string ExperimentNode::withoutPlan() const {
+  return missing({"controller", "hand_server", "vision_tracker"}, "");
+}
+
+std::string ExperimentNode::withoutOrder() const {
+  return missing({"controller", "hand_server"}, "armed");
+}
+
+std::string ExperimentNode::waitingFor() const {
+  switch (phase_) {
+    case Phase::kPlanning:
+      return plan_ ? "the plan was not taken by " + withoutPlan()
+                   : "the planner did not answer PLAN_REQUEST";
+    case Phase::kArming:
+      return "THROW_START was not taken by " + withoutOrder();
+    case Phase::kStarting:
+      return "sim_bullet did not answer SCENE";
+    default:
+      return fmt::format(
+          "the scene stopped at {:.3f} s",
+          static_cast<double>(status_.utime - sceneUtime(settings_, number_)) / kMicro);
+  }
+}
+
+messaging::NodeState ExperimentNode::state() const {
+  return {phaseName(phase_), error_, number_};
+}
+
+std::string ExperimentNode::progress() const {
+  std::string text = fmt::format("throw {} of {}, ", number_, settings_.throws);
+  if (phase_ != Phase::kThrowing)
+    return text + phaseName(phase_);
+  if (sceneFinished())
+    return text + "measuring";
+  const auto scene_us = static_cast<double>(status_.utime - sceneUtime(settings_, number_));
+  return text +
+         fmt::format("{}, {:.2f} s", armPhaseName(status_.phase), std::max(0.0, scene_us / kMicro));
+}
+
+}  // namespace fastball::launch

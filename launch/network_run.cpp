@@ -1,0 +1,250 @@
+#include "launch/network_run.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "launch/experiment_node.h"
+#include "launch/processes.h"
+#include "launch/verdicts.h"
+#include "messaging/heartbeat.h"
+#include "messaging/lcm_endpoint.h"
+#include "messaging/stop_signals.h"
+#include "messaging/validation.h"
+
+namespace fastball::launch {
+namespace {
+
+constexpr double kMicro = 1e6;
+constexpr int64_t kWatchIntervalUs = 20000;
+// For the last commands to reach the robot and the log.
+constexpr auto kEstopTime = std::chrono::milliseconds(100);
+constexpr double kInterruptedGrace = 0.9;  // [s], twice: an interrupted run is over within 2 s
+constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
+constexpr const char* kLogger = "logger";
+
+/// As HEARTBEAT names this machine.
+std::string hostName() {
+  std::array<char, messaging::kNameBytes + 1> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0 || host[0] == '\0')
+    return "unknown";
+  return host.data();
+}
+
+std::vector<ProcessCommand> commands(const RunSetup& setup) {
+  std::vector<std::string> shared = {"--lcm-url", setup.options.lcm_url, "--config",
+                                     setup.options.config};
+  if (setup.options.realtime)
+    shared.emplace_back("--realtime");
+  const std::string folder = programFolder() + "/fastball-";
+  std::vector<ProcessCommand> all = {{kLogger, folder + "logger", shared},
+                                     {"planner", folder + "planner", shared},
+                                     {"controller", folder + "controller", shared},
+                                     {"hand_server", folder + "hand-server", shared},
+                                     {"sim_bullet", folder + "sim-bullet", shared},
+                                     {"vision_tracker", folder + "vision-tracker", shared}};
+  for (ProcessCommand& command : all) {
+    auto& arguments = command.arguments;
+    if (command.name == kLogger) {
+      arguments.insert(arguments.end(),
+                       {"--log", setup.log, "--seed", std::to_string(setup.settings.seed),
+                        "--command-line", setup.command_line});
+    }
+    if (command.name == "sim_bullet" && !setup.options.uncertainty.empty()) {
+      arguments.insert(arguments.end(), {"--uncertainty", setup.options.uncertainty});
+    }
+  }
+  return all;
+}
+
+/// The run while it goes on: one loop that hears, acts and watches the processes.
+class NetworkRun {
+ public:
+  NetworkRun(const RunSetup& setup, Progress& progress)
+      : setup_(setup),
+        progress_(progress),
+        endpoint_(setup.options.lcm_url),
+        roster_(endpoint_),
+        experiment_(endpoint_, clock_, roster_, setup.settings),
+        judge_(endpoint_),
+        verdicts_(experiment_, judge_, setup.settings.target.radius, progress),
+        heartbeat_(endpoint_, clock_, experiment_) {
+    endpoint_.subscribe<logger_status_t>(messaging::kLoggerStatus,
+                                         [this](const auto& m) { logger_status_ = m; });
+  }
+
+  void listenForOthers();
+  void startProcesses();
+  void conduct();
+  void stopProcesses();
+
+  const ExperimentNode& experiment() const { return experiment_; }
+  const Verdicts& verdicts() const { return verdicts_; }
+
+ private:
+  void pump(bool act);
+  void pumpFor(double seconds, bool act);
+  void watch();
+  bool isOurs(const heartbeat_t& heartbeat) const;
+  void refuseStrangers() const;
+
+  const RunSetup& setup_;
+  Progress& progress_;
+  messaging::StopSignals signals_;
+  messaging::SystemClock clock_;
+  messaging::LcmEndpoint endpoint_;
+  Roster roster_;
+  ExperimentNode experiment_;
+  Judge judge_;
+  Verdicts verdicts_;
+  messaging::Heartbeat heartbeat_;
+  Processes processes_;
+  logger_status_t logger_status_{};
+  int64_t next_watch_us_ = INT64_MIN;
+  const std::string host_ = hostName();
+};
+
+void NetworkRun::pump(bool act) {
+  const int64_t now = clock_.monotonicUs();
+  const int64_t wake = std::min(now + kWatchIntervalUs, act ? experiment_.wakeUs() : INT64_MAX);
+  std::array<pollfd, 2> waits = {pollfd{endpoint_.fileDescriptor(), POLLIN, 0},
+                                 pollfd{signals_.fileDescriptor(), POLLIN, 0}};
+  poll(waits.data(), waits.size(), static_cast<int>(std::max<int64_t>(0, wake - now + 999) / 1000));
+  const int64_t woke = clock_.monotonicUs();
+  endpoint_.drain();
+  if (act)
+    experiment_.step();
+  heartbeat_.update(static_cast<double>(clock_.monotonicUs() - woke));
+  verdicts_.update();
+  if (woke >= next_watch_us_) {
+    next_watch_us_ = woke + kWatchIntervalUs;
+    watch();
+  }
+}
+
+void NetworkRun::pumpFor(double seconds, bool act) {
+  const int64_t end = clock_.monotonicUs() + std::llround(seconds * kMicro);
+  while (clock_.monotonicUs() < end)
+    pump(act);
+}
+
+void NetworkRun::watch() {
+  if (signals_.received())
+    throw std::runtime_error("interrupted");
+  if (const auto ended = processes_.ended())
+    throw std::runtime_error(*ended);
+  refuseStrangers();
+}
+
+bool NetworkRun::isOurs(const heartbeat_t& heartbeat) const {
+  if (heartbeat.host != host_)
+    return false;
+  return heartbeat.pid == getpid() || heartbeat.pid == processes_.pid(heartbeat.name);
+}
+
+void NetworkRun::refuseStrangers() const {
+  const auto names = processes_.names();
+  for (const heartbeat_t& heartbeat : roster_.everyone()) {
+    // Once this run is on, a second `fastball run` that is about to refuse is no harm.
+    if (!names.empty() && std::find(names.begin(), names.end(), heartbeat.name) == names.end())
+      continue;
+    if (isOurs(heartbeat))
+      continue;
+    throw std::runtime_error(
+        fmt::format("another run is on {}: its {} (process {} on {}) was heard; end it, or give "
+                    "this run a port of its own with --lcm-url",
+                    setup_.options.lcm_url, heartbeat.name, heartbeat.pid, heartbeat.host));
+  }
+}
+
+void NetworkRun::listenForOthers() {
+  progress_.status("listening for another run", clock_.monotonicUs());
+  pumpFor(setup_.settings.config.listen_time, false);
+}
+
+void NetworkRun::startProcesses() {
+  for (const ProcessCommand& command : commands(setup_))
+    processes_.start(command);
+  const double timeout = setup_.settings.config.start_timeout;
+  const int64_t end = clock_.monotonicUs() + std::llround(timeout * kMicro);
+  for (const std::string& name : processes_.names()) {
+    while (roster_.newest(name) == nullptr) {
+      progress_.status("waiting for " + name, clock_.monotonicUs());
+      pump(false);
+      if (clock_.monotonicUs() < end)
+        continue;
+      throw std::runtime_error(
+          fmt::format("{} did not say HEARTBEAT within {} s (run.start_timeout)\n{}", name, timeout,
+                      processes_.lastOutput(name)));
+    }
+  }
+}
+
+void NetworkRun::conduct() {
+  try {
+    while (!experiment_.finished()) {
+      pump(true);
+      progress_.status(experiment_.progress(), clock_.monotonicUs());
+    }
+  } catch (const std::exception& e) {
+    const std::string sentence = e.what();
+    experiment_.stop(sentence.substr(0, sentence.find('\n')));
+    std::this_thread::sleep_for(kEstopTime);
+    throw;
+  }
+  const int64_t end = clock_.monotonicUs() + std::llround(kTruthTime * kMicro);
+  while (!verdicts_.complete()) {
+    pump(true);
+    if (clock_.monotonicUs() < end)
+      continue;
+    throw std::runtime_error(
+        fmt::format("the simulator did not tell the truth of throw {} (SIM_TRUTH)",
+                    verdicts_.throws().size() + 1));
+  }
+}
+
+void NetworkRun::stopProcesses() {
+  const double grace = signals_.received()
+                           ? std::min(kInterruptedGrace, setup_.settings.config.stop_grace)
+                           : setup_.settings.config.stop_grace;
+  const std::vector<std::string> names = processes_.names();
+  processes_.stop(grace, kLogger);
+  endpoint_.drain();
+  for (const std::string& name : names) {
+    const heartbeat_t* last = roster_.newest(name);
+    if (last != nullptr && last->lost + last->invalid > 0) {
+      progress_.line(
+          fmt::format("{} missed {} messages and refused {}", name, last->lost, last->invalid));
+    }
+  }
+  if (logger_status_.lost > 0 || !logger_status_.message.empty()) {
+    progress_.line(fmt::format("the log is not whole: {} messages lost {}", logger_status_.lost,
+                               logger_status_.message));
+  }
+}
+
+}  // namespace
+
+void runOverNetwork(const RunSetup& setup, Progress& progress, RunResult& result) {
+  NetworkRun run(setup, progress);
+  try {
+    run.listenForOthers();
+    run.startProcesses();
+    run.conduct();
+    result.error = run.experiment().error();
+  } catch (const std::exception& e) {
+    result.error = e.what();
+  }
+  run.stopProcesses();
+  result.throws = run.verdicts().throws();
+  result.throw_wall_s = run.experiment().throwWallTimes();
+}
+
+}  // namespace fastball::launch

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "launch/throw_script.h"
+#include "messaging/process.h"
+
+namespace fastball::launch {
+
+/// The command line of `fastball run`.
+struct RunOptions {
+  int throws = 3;
+  int64_t seed = 1;
+  std::string strategy;     ///< empty: the one of the experiment file
+  std::string config;       ///< empty: the default experiment
+  std::string uncertainty;  ///< empty: no errors are injected
+  std::string log;          ///< empty: runs/<time>-seed<seed>.lcmlog
+  std::string json;         ///< empty: none
+  bool realtime = false;
+  bool no_network = false;
+  std::string lcm_url;
+  std::string command_line;  ///< as typed, for the log's record
+};
+
+/// A run whose inputs have been read and found good.
+struct RunSetup {
+  RunSettings settings;
+  messaging::ProcessOptions options;  ///< for every process
+  std::string arm;                    ///< profile of the arm
+  std::string log;                    ///< path of the log, empty: none
+  std::string command_line;           ///< for the record beside the log
+};
+
+/// Reads the experiment file with every process's section and checks all that can be checked before anything is started.
+/// @throw std::invalid_argument with a sentence that names file, line and key, or the flag.
+RunSetup prepareRun(const RunOptions& options);
+
+/// @throw std::invalid_argument if no file can be written at `path`; `flag` is named then. A file that is there stays as it is.
+void requireWritable(const std::string& flag, const std::string& path);
+
+}  // namespace fastball::launch

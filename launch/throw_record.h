@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lcmtypes/fastball_types.h"
+
+namespace fastball::launch {
+
+/// What a log tells of one throw. A message that the log does not hold is absent; nothing here comes from SIM_TRUTH.
+struct ThrowRecord {
+  std::optional<plan_request_t> request;
+  std::optional<swing_plan_t> plan;
+  std::optional<scene_t> scene;
+  std::optional<throw_start_t> start;
+  std::optional<release_t> commanded, departed;
+  std::optional<landing_t> landing;
+  std::vector<arm_state_t> arm;     ///< one a tick, in order
+  std::vector<ball_track_t> track;  ///< in order
+};
+
+/// All throws of a log by their number.
+/// @throw std::invalid_argument if the file cannot be read or holds no throw.
+std::map<int64_t, ThrowRecord> readThrows(const std::string& log_path);
+
+}  // namespace fastball::launch

@@ -1,0 +1,161 @@
+#include "launch/experiment_node.h"
+
+#include <gmock/gmock.h>
+
+#include <ostream>
+
+#include "launch/judge.h"
+#include "tests/launch/scripted_peers.h"
+
+namespace fastball::launch {
+namespace {
+
+using messaging::LocalNetwork;
+using messaging::ManualClock;
+using testing::HasSubstr;
+using Phase = ExperimentNode::Phase;
+
+RunSettings threeThrows() {
+  RunSettings settings;
+  settings.throws = 3;
+  settings.seed = 7;
+  settings.strategy = "paper";
+  settings.q_rest = {-1.0, 1.2, 0.0, 1.5};
+  settings.target.p_WTarget = {3.0, 0.0, -0.5};
+  settings.target.radius = 0.1;
+  settings.config.settle = 0.6;
+  settings.config.scene_period = 10.0;
+  settings.config.camera_lead = 0.15;
+  settings.config.camera_tail = 0.1;
+  settings.config.scene_tail = 0.2;
+  settings.config.repeat_interval = 0.1;
+  settings.config.answer_timeout = 30.0;
+  return settings;
+}
+
+class ExperimentNodeTest : public testing::Test {
+ protected:
+  ExperimentNodeTest() { network.addNode(experiment, endpoint); }
+
+  /// Lets messages flow until the run is over or all stand still.
+  bool flow() {
+    return network.run([this] { return experiment.finished(); });
+  }
+  void wait(double seconds) { clock.advanceUs(static_cast<int64_t>(seconds * 1e6)); }
+
+  ManualClock clock;
+  LocalNetwork network{clock};
+  ScriptedPeers peers{network};
+  messaging::Endpoint& endpoint = network.addEndpoint();
+  Roster roster{endpoint};
+  Judge judge{network.addEndpoint()};
+  ExperimentNode experiment{endpoint, clock, roster, threeThrows()};
+};
+
+TEST_F(ExperimentNodeTest, ConductsThreeThrowsOneAfterTheOther) {
+  ASSERT_TRUE(flow());
+  EXPECT_EQ(experiment.phase(), Phase::kDone) << experiment.error();
+  ASSERT_EQ(experiment.throws().size(), 3U);
+  ASSERT_EQ(peers.scenes.size(), 3U);
+  for (int k = 1; k <= 3; ++k) {
+    EXPECT_EQ(peers.requests[k - 1].request_id, k);
+    EXPECT_EQ(peers.starts[k - 1].plan_id, k);
+    EXPECT_EQ(peers.scenes[k - 1].scene_id, k);
+    EXPECT_EQ(peers.scenes[k - 1].utime, k * 10000000);
+    EXPECT_EQ(peers.starts[k - 1].start_utime, k * 10000000 + 600000);
+    EXPECT_EQ(experiment.throws()[k - 1].number, k);
+    EXPECT_DOUBLE_EQ(experiment.throws()[k - 1].landing.x(), 0.01);
+    EXPECT_DOUBLE_EQ(experiment.throws()[k - 1].landing_sigma.y(), 0.002);
+    EXPECT_DOUBLE_EQ(experiment.throws()[k - 1].planned_speed, 6.0);
+    EXPECT_TRUE(judge.of(k).finished);
+  }
+}
+
+TEST_F(ExperimentNodeTest, SaysAnOrderAgainUntilItIsAnswered) {
+  peers.arms = false;
+  EXPECT_FALSE(flow());
+  EXPECT_EQ(peers.starts.size(), 1U);
+  wait(0.1);
+  EXPECT_FALSE(flow());
+  EXPECT_EQ(peers.starts.size(), 2U);
+  EXPECT_TRUE(peers.scenes.empty());
+  peers.arms = true;
+  wait(0.1);
+  EXPECT_TRUE(flow());
+  EXPECT_EQ(experiment.phase(), Phase::kDone);
+}
+
+TEST_F(ExperimentNodeTest, FailsWithTheSentenceOfThePlanner) {
+  peers.refusal = "the target is 9.2 m away";
+  EXPECT_TRUE(flow());
+  EXPECT_EQ(experiment.phase(), Phase::kFailed);
+  EXPECT_THAT(experiment.error(), HasSubstr("the target is 9.2 m away"));
+  EXPECT_TRUE(peers.scenes.empty());
+}
+
+TEST_F(ExperimentNodeTest, FailsWithTheSentenceOfAProcessThatRefusesThePlan) {
+  peers.arms = false;
+  EXPECT_FALSE(flow());
+  peers.controller.own_state = {"refused", "plan 1 starts elsewhere", 1};
+  EXPECT_TRUE(flow());
+  EXPECT_THAT(experiment.error(), HasSubstr("controller refused: plan 1 starts elsewhere"));
+}
+
+struct Silence {
+  const char* who;
+  bool ScriptedPeers::*answers;
+  const char* sentence;
+};
+std::ostream& operator<<(std::ostream& out, const Silence& silence) {
+  return out << silence.who;
+}
+
+class SilenceTest : public ExperimentNodeTest, public testing::WithParamInterface<Silence> {};
+
+TEST_P(SilenceTest, IsNamedAfterTheTimeout) {
+  peers.*GetParam().answers = false;
+  EXPECT_FALSE(flow());
+  wait(29.9);
+  EXPECT_FALSE(flow());
+  wait(0.2);
+  EXPECT_TRUE(flow());
+  EXPECT_EQ(experiment.phase(), Phase::kFailed);
+  EXPECT_THAT(experiment.error(), HasSubstr(GetParam().sentence));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachPeer,
+                         SilenceTest,
+                         testing::Values(Silence{"planner", &ScriptedPeers::plans,
+                                                 "planner did not answer PLAN_REQUEST"},
+                                         Silence{"controller", &ScriptedPeers::arms,
+                                                 "not taken by controller (planned)"},
+                                         Silence{"sim_bullet", &ScriptedPeers::plays,
+                                                 "sim_bullet did not answer SCENE"}),
+                         [](const auto& test) { return test.param.who; });
+
+TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
+  peers.measures = false;
+  EXPECT_FALSE(flow());
+  for (int k = 1; k <= 3; ++k) {
+    wait(30.1);
+    flow();
+  }
+  EXPECT_EQ(experiment.phase(), Phase::kDone);
+  ASSERT_EQ(experiment.throws().size(), 3U);
+  EXPECT_FALSE(experiment.throws()[2].measured);
+  EXPECT_THAT(experiment.throws()[2].note, HasSubstr("no LANDING"));
+}
+
+TEST_F(ExperimentNodeTest, StopSaysEstop) {
+  peers.plays = false;
+  EXPECT_FALSE(flow());
+  experiment.stop("interrupted");
+  flow();
+  EXPECT_EQ(experiment.phase(), Phase::kFailed);
+  network.run([] { return false; });
+  ASSERT_EQ(peers.estops.size(), 1U);
+  EXPECT_EQ(peers.estops[0].reason, "interrupted");
+}
+
+}  // namespace
+}  // namespace fastball::launch
