@@ -14,14 +14,13 @@ namespace fastball::launch {
 
 /// Conducts the throws of a run, one after the other, by messages alone:
 ///
-///     planning   says PLAN_REQUEST        until the plan is here and controller, hand_server and
-///     vision_tracker hold it arming     says THROW_START         until controller and hand_server
-///     are armed starting   says SCENE               until the scene runs throwing   listens until
-///     the scene is finished and the tracker has said LANDING
+///     planning   says PLAN_REQUEST   until the plan is here and controller, hand_server and vision_tracker hold it
+///     arming     says THROW_START    until controller and hand_server are armed
+///     starting   says SCENE          until the scene runs
+///     throwing   listens             until the scene is finished and the tracker has said LANDING
 ///
-/// then the next throw, at the end `done`; or `failed`, with a sentence. An order is said again
-/// until it is answered. It hears nothing of the truth. Wall time decides only when to repeat an
-/// order and when to give up.
+/// then the next throw, at the end `done`; or `failed`, with a sentence. An order is said again until it is answered. It
+/// hears nothing of the truth. Wall time decides only when to repeat an order and when to give up.
 class ExperimentNode : public messaging::Node {
  public:
   enum class Phase { kPlanning, kArming, kStarting, kThrowing, kDone, kFailed };

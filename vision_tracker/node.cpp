@@ -76,8 +76,10 @@ class TrackerNode : public messaging::Node {
   std::string name() const override { return "vision_tracker"; }
 
   void step() override {
-    while (const auto image = order_.next())
+    while (const auto image = order_.next()) {
       process(*image);
+      last_image_us_ = clock_.monotonicUs();  // a backlog worked off is no silence
+    }
     if (clock_.monotonicUs() < wakeUs())
       return;
     while (const auto image = order_.nextAnyway())
@@ -268,7 +270,8 @@ class TrackerNode : public messaging::Node {
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options) {
-  return std::make_unique<TrackerNode>(endpoint, clock, readTracker(config::experimentPath(options.config)));
+  return std::make_unique<TrackerNode>(endpoint, clock,
+                                       readTracker(config::experimentPath(options.config)));
 }
 
 }  // namespace fastball::vision_tracker

@@ -123,11 +123,16 @@ Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image)
   return {true, fit};
 }
 
-void ThrowTracker::observe(int64_t utime, int camera, const BallFit& fit, const Eigen::Vector3d& p_WBall) {
+void ThrowTracker::observe(int64_t utime,
+                           int camera,
+                           const BallFit& fit,
+                           const Eigen::Vector3d& p_WBall) {
   // An outline of a wrong size is wrong somewhere by as much: a finger or the ring covers a part of it.
   const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
-  const double off = fit.radius - sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
-  observations_.push_back({utime, camera, fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity()});
+  const double off =
+      fit.radius - sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
+  observations_.push_back(
+      {utime, camera, fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity()});
 }
 
 void ThrowTracker::closeMoment() {

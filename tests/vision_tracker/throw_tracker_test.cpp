@@ -115,16 +115,15 @@ TEST_P(TrackerOnManyThrows, LandsWithinThreeMillimetresAndSaysHowWell) {
     ASSERT_TRUE(report.measured) << report.message;
     const Eigen::Vector2d error = report.landing.landing - synthetic.landing.landing;
     EXPECT_LT(error.norm(), 3e-3) << "seed " << seed;
-    EXPECT_LT(report.landing.cov.diagonal().cwiseSqrt().maxCoeff(), 1.5e-3);
+    EXPECT_LT(report.landing.cov.diagonal().cwiseSqrt().maxCoeff(), 1e-3) << "sigma says nothing";
     EXPECT_NEAR(static_cast<double>(report.landing.utime),
                 static_cast<double>(synthetic.landing_utime), 400);
     EXPECT_LT((report.landing.state.v_WBall - synthetic.landing.state.v_WBall).norm(), 0.02);
     EXPECT_GT(tracks_, 60);
     normalised += error.dot(report.landing.cov.inverse() * error) / 5;
   }
-  // Five chi-squares of two dimensions have a mean of 2; far more means that sigma is too small, far less that it says nothing.
-  EXPECT_LT(normalised, 4.5);
-  EXPECT_GT(normalised, 0.05);
+  // Five chi-squares of two dimensions have a mean of 2; far more would mean that sigma is too small.
+  EXPECT_LT(normalised, 4.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(TwentySeeds, TrackerOnManyThrows, ::testing::Range(0, 4));
