@@ -1,5 +1,5 @@
 # `format` rewrites our own files, `check-format` only looks, `tidy` runs clang-tidy over them.
-file(GLOB_RECURSE own_files CONFIGURE_DEPENDS
+file(GLOB_RECURSE own_files
   ${PROJECT_SOURCE_DIR}/messaging/*.[ch]* ${PROJECT_SOURCE_DIR}/model/*.[ch]*
   ${PROJECT_SOURCE_DIR}/config/*.[ch]* ${PROJECT_SOURCE_DIR}/planner/*.[ch]*
   ${PROJECT_SOURCE_DIR}/controller/*.[ch]* ${PROJECT_SOURCE_DIR}/hand_server/*.[ch]*

@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
   std::string log, rerun, config;
-  std::string lcm_url = messaging::kDefaultLcmUrl;
+  std::string lcm_url = messaging::defaultLcmUrl();
   ReplayOptions replay;
 };
 

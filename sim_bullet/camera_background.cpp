@@ -89,7 +89,7 @@ cv::Mat drawRoom(const model::Camera& camera, const cv::Mat& rays) {
   const Eigen::Vector3d p_WCamera = -camera.R_CW.transpose() * camera.p_CW;
   for (int v = 0; v < rays.rows; ++v) {
     for (int u = 0; u < rays.cols; ++u) {
-      const cv::Vec2f ray = rays.at<cv::Vec2f>(v, u);
+      const auto& ray = rays.at<cv::Vec2f>(v, u);
       const Eigen::Vector3d d = camera.R_CW.transpose() * Eigen::Vector3d(ray[0], ray[1], 1);
       const double to_wall = d.y() > 1e-6 ? (kWallY - p_WCamera.y()) / d.y() : 1e6;
       const double to_floor = d.z() < -1e-6 ? (kFloorZ - p_WCamera.z()) / d.z() : 1e6;

@@ -38,7 +38,7 @@ void fillLimb(const Limb& limb,
   constexpr int kArc = 9;
   const Eigen::Vector2d axis = limb.end - limb.start;
   const double heading = axis.norm() > 1e-9 ? std::atan2(axis.y(), axis.x()) : 0;
-  std::array<cv::Point, 2 * kArc> outline;
+  std::array<cv::Point, std::size_t{2} * kArc> outline;
   for (int i = 0; i < 2 * kArc; ++i) {
     const bool at_end = i < kArc;
     const double turn = kPi * (i % kArc) / (kArc - 1) - kPi / 2;

@@ -27,8 +27,8 @@ cv::Mat foreground(const cv::Mat& image, const cv::Mat& mean, double threshold, 
     const auto* grey = image.ptr<uint8_t>(v * stride);
     const auto* still = mean.ptr<int16_t>(v * stride);
     auto* out = mask.ptr<uint8_t>(v);
-    for (int u = 0; u < cols; ++u) {
-      const int difference = grey[u * stride] * Background::kScale - still[u * stride];
+    for (int u = 0; u < cols; ++u, grey += stride, still += stride) {
+      const int difference = *grey * Background::kScale - *still;
       out[u] = difference > limit || difference < -limit ? 255 : 0;
     }
   }

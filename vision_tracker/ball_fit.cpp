@@ -187,10 +187,9 @@ class Fit {
       row[3] = -slope * s * height * x_[3] / sigma;
       row.segment<kCubic>(4) = share * pixel.monomials;
       row.tail<kLamp>() = (lit ? share : 0.0) * edge.normal;
-      e.information.selfadjointView<Eigen::Lower>().rankUpdate(row);
+      e.information.noalias() += row * row.transpose();
       e.gradient += residual * row;
     }
-    e.information = e.information.selfadjointView<Eigen::Lower>();
     // The radius as it was known before, and a breath of damping for what the pixels do not show.
     const double weight = noise * noise / (guess_.radius_sigma * guess_.radius_sigma);
     e.information(2, 2) += weight;
@@ -256,7 +255,7 @@ BallFit fitBall(const cv::Mat& image,
   const Eigen::Matrix2d lower = guess.outline.shape.llt().matrixL();
   const Eigen::Matrix2d unit_inverse = radius * lower.inverse();
   const std::vector<Pixel> pixels = pixelsNear(image, background, guess.outline, unit_inverse);
-  if (pixels.size() < 2 * kParameters)
+  if (pixels.size() < std::size_t{2} * kParameters)
     return result;
   Fit fit(pixels, guess, unit_inverse, blur);
   fit.startShading();

@@ -39,7 +39,7 @@ Eigen::Vector2d outlineCentre(const model::Camera& camera,
   const double stretch = z * z / root;
   const Eigen::Vector3d q(stretch * c.x(), stretch * c.y(), z);
   const Eigen::Vector3d q_W = camera.R_CW.transpose() * (q - camera.p_CW);
-  const Eigen::Vector2d centre =
+  Eigen::Vector2d centre =
       camera.project(q_W, jacobian) + lensShift(camera, q.head<2>() / z, radius * radius / root);
   if (jacobian != nullptr) {
     const double stretch_z = -2 * z * radius * radius / (root * root);

@@ -49,7 +49,7 @@ class ControllerProcess : public testing::Test {
     return heartbeat_.name == "controller" && heartbeat_.state == state;
   }
 
-  messaging::LcmEndpoint peer_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint peer_{messaging::defaultLcmUrl()};
   messaging::ChildProcess process_{
       {FASTBALL_BIN_DIR "/fastball-controller", "--config", kExperimentPath}};
   arm_command_t command_{};

@@ -51,7 +51,7 @@ class HandServerProcess : public testing::Test {
     return heartbeat_.name == "hand_server" && heartbeat_.state == state;
   }
 
-  messaging::LcmEndpoint peer_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint peer_{messaging::defaultLcmUrl()};
   messaging::ChildProcess process_{
       {FASTBALL_BIN_DIR "/fastball-hand-server", "--config", kExperimentPath}};
   hand_command_t command_{};

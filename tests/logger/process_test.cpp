@@ -59,7 +59,7 @@ class LoggerProcess : public testing::Test {
     return messages;
   }
 
-  messaging::LcmEndpoint peer_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint peer_{messaging::defaultLcmUrl()};
   messaging::Publisher<arm_state_t> states_{peer_, messaging::kArmState};
   logger_status_t status_{};
   std::string log_;

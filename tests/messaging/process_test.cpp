@@ -63,7 +63,7 @@ TEST(Process, WrongUsageIsStatusTwo) {
 TEST(Process, StartsWithOneLineOfNameVersionAndUrl) {
   ChildProcess process({kEcho, "--duration", "0.01"});
   EXPECT_EQ(process.wait(), kExitDone);
-  EXPECT_EQ(process.output(), std::string("echo ") + version() + " on " + kDefaultLcmUrl +
+  EXPECT_EQ(process.output(), std::string("echo ") + version() + " on " + defaultLcmUrl() +
                                   "&recv_buf_size=4194304\nshut down\n");
 }
 

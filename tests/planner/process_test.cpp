@@ -43,7 +43,7 @@ class PlannerProcess : public testing::Test {
   }
 
   DefaultThrow example_;
-  messaging::LcmEndpoint peer_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint peer_{messaging::defaultLcmUrl()};
   messaging::Publisher<plan_request_t> requests_{peer_, messaging::kPlanRequest};
   std::vector<swing_plan_t> plans_;
   heartbeat_t heartbeat_{};

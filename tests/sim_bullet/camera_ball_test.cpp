@@ -47,6 +47,7 @@ std::vector<cv::Point2f> silhouette(const model::Camera& camera,
                     cv::Matx33d(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1),
                     cv::Vec<double, 5>(camera.distortion.data()), pixels);
   std::vector<cv::Point2f> relative;
+  relative.reserve(pixels.size());
   for (const cv::Point2d& p : pixels)
     relative.emplace_back(p - middle);
   return relative;

@@ -33,11 +33,11 @@ class CameraRigTest : public ::testing::Test {
   }
 
   std::vector<RenderedImage> draw(CameraRig& cameras, int64_t seed, int milliseconds = 100) {
-    cameras.begin(3, seed, kStart, kStart + milliseconds * 1000, experiment_.target);
+    cameras.begin(3, seed, kStart, kStart + int64_t{1000} * milliseconds, experiment_.target);
     std::vector<RenderedImage> images;
     RenderedImage image;
     for (int k = 0; k <= milliseconds + 5; ++k) {
-      cameras.add(at(kStart + 1000 * k));
+      cameras.add(at(kStart + int64_t{1000} * k));
       while (cameras.nextImage(image))
         images.push_back(image);
     }
@@ -74,7 +74,8 @@ TEST_F(CameraRigTest, FramesLieOnTheGridInOrder) {
     EXPECT_EQ(images[i].camera, static_cast<int>(i % 2));
     EXPECT_EQ(images[i].frame, static_cast<int64_t>(i / 2));
     EXPECT_EQ(images[i].scene_id, 3);
-    EXPECT_EQ(images[i].utime, std::llround((4801 + i / 2) * 1e6 / 240));
+    const std::size_t place = 4801 + i / 2;
+    EXPECT_EQ(images[i].utime, std::llround(static_cast<double>(place) * 1e6 / 240));
     EXPECT_LE(images[i].jpeg.size(), 60000u);
     EXPECT_EQ(images[i].width, 640);
     EXPECT_EQ(images[i].height, 480);
@@ -137,8 +138,8 @@ TEST_F(CameraRigTest, IgnoresTicksThatDoNotFollow) {
   EXPECT_FALSE(cameras->nextImage(image));
   cameras->begin(1, 1, kStart, kStart + 20000, experiment_.target);
   for (int k = 0; k <= 20; ++k) {
-    cameras->add(at(kStart + 1000 * k));
-    cameras->add(at(kStart + 1000 * k));
+    cameras->add(at(kStart + int64_t{1000} * k));
+    cameras->add(at(kStart + int64_t{1000} * k));
     cameras->add(at(kStart));
   }
   int count = 0;

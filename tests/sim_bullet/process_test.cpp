@@ -44,7 +44,7 @@ class Process : public testing::Test {
     return message;
   }
 
-  messaging::LcmEndpoint endpoint_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint endpoint_{messaging::defaultLcmUrl()};
   ChildProcess process_{{kProgram, "--config", kExperimentFile}};
   ScriptedPeers peers_{endpoint_};
   heartbeat_t heartbeat_{};

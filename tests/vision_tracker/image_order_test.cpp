@@ -83,7 +83,7 @@ TEST(Decode, TakesJpegAndPlainGrey) {
   ReceivedImage plain = encoded();
   plain.jpeg = false;
   plain.row_stride = 70;
-  plain.data.assign(70 * 48, 5);
+  plain.data.assign(std::size_t{70} * 48, 5);
   EXPECT_EQ(decode(plain, {64, 48}, decoded), "");
   EXPECT_EQ(decoded.at<uint8_t>(47, 63), 5);
 }

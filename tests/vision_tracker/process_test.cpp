@@ -74,7 +74,7 @@ class TrackerProcess : public ::testing::Test {
   config::Experiment experiment_ = config::loadExperiment(testing::experimentPath());
   sim_bullet::CameraRig rig_{rigOptions(), experiment_.arm, experiment_.hand,
                              experiment_.ball.radius};
-  messaging::LcmEndpoint peer_{messaging::kDefaultLcmUrl};
+  messaging::LcmEndpoint peer_{messaging::defaultLcmUrl()};
   messaging::ChildProcess process_{
       {FASTBALL_BIN_DIR "/fastball-vision-tracker", "--config", testing::experimentPath()}};
   std::vector<landing_t> landings_;

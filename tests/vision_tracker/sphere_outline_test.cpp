@@ -56,6 +56,7 @@ struct Moments {
 /// Centre and shape of the area that the pixels enclose (an ellipse's second moments are a quarter of its shape).
 Moments enclosed(const std::vector<cv::Point2d>& outline) {
   std::vector<cv::Point2f> small;
+  small.reserve(outline.size());
   for (const cv::Point2d& p : outline)
     small.emplace_back(static_cast<float>(p.x - outline[0].x),
                        static_cast<float>(p.y - outline[0].y));
