@@ -116,14 +116,14 @@ TEST(Process, FailureIsOneSentenceAndStatusOne) {
 }
 
 TEST(Process, MissingRouteIsNamedWithAMendThatMends) {
-  if (ChildProcess({"unshare", "-Urn", "true"}).wait() != 0)
+  if (ChildProcess({"unshare", "-n", "true"}).wait() != 0)
     GTEST_SKIP() << "no private network namespace to be had here";
   for (const auto& [url, mend] : {
            std::pair{"udpm://239.255.76.67:7667?ttl=0", "ip route add 239.255.76.67/32 dev lo"},
            std::pair{"udpm://239.1.2.3:7700?ttl=0", "ip route add 239.1.2.3/32 dev lo"},
        }) {
     const auto start = SteadyClock::now();
-    ChildProcess process({"unshare", "-Urn", kEcho, "--lcm-url", url});
+    ChildProcess process({"unshare", "-n", kEcho, "--lcm-url", url});
     EXPECT_EQ(process.wait(), kExitFailed);
     // LCM alone needs 10 s; the rest is for a busy machine.
     EXPECT_LT(Seconds(SteadyClock::now() - start).count(), 5.0);
@@ -133,7 +133,7 @@ TEST(Process, MissingRouteIsNamedWithAMendThatMends) {
     const std::string command =
         said.substr(said.find('`') + 1, said.rfind('`') - said.find('`') - 1);
     ChildProcess mended(
-        {"unshare", "-Urn", "sh", "-c",
+        {"unshare", "-n", "sh", "-c",
          fmt::format("{} && exec {} --duration 0.01 --lcm-url '{}'", command, kEcho, url)});
     EXPECT_EQ(mended.wait(), kExitDone) << mended.output();
   }

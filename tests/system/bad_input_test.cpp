@@ -98,10 +98,10 @@ TEST(BadInput, ATargetOutOfReachFailsWithTheSentenceOfThePlanner) {
 }
 
 TEST(BadInput, WithoutARouteTheMendIsNamed) {
-  if (std::system("unshare -rn true 2>/dev/null") != 0) {
+  if (std::system("unshare -n true 2>/dev/null") != 0) {
     GTEST_SKIP() << "no private network namespace to be had here";
   }
-  const Outcome outcome = fastball({"run"}, {"unshare", "-rn"});
+  const Outcome outcome = fastball({"run"}, {"unshare", "-n"});
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("ip route add"));
 }

@@ -20,7 +20,7 @@ struct Outcome {
 class FastballRun {
  public:
   /// Starts it. With the subcommand `run`, the flags --lcm-url, --log and --json are added where `arguments` has none of
-  /// them. `wrapper`: words in front of the command, such as {"unshare", "-rn"}.
+  /// them. `wrapper`: words in front of the command, such as {"unshare", "-n"}.
   explicit FastballRun(std::vector<std::string> arguments,
                        const std::vector<std::string>& wrapper = {});
   ~FastballRun();
