@@ -9,11 +9,14 @@ namespace fastball::model {
 /// from the robot, second axis up in the plane.
 struct Target {
   Eigen::Vector3d p_WTarget = Eigen::Vector3d::Zero();  ///< [m], centre of the ring
-  Eigen::Vector3d n_WTarget = -Eigen::Vector3d::UnitX();  ///< unit normal, towards the robot; not vertical
-  double radius = 0;                                    ///< [m], inner radius of the ring
+  Eigen::Vector3d n_WTarget =
+      -Eigen::Vector3d::UnitX();  ///< unit normal, towards the robot; not vertical
+  double radius = 0;              ///< [m], inner radius of the ring
 
   /// First axis of the plane: horizontal, to the right seen from the robot. With n = -x it is -y.
-  Eigen::Vector3d rightAxis() const { return Eigen::Vector3d::UnitZ().cross(n_WTarget).normalized(); }
+  Eigen::Vector3d rightAxis() const {
+    return Eigen::Vector3d::UnitZ().cross(n_WTarget).normalized();
+  }
   Eigen::Vector3d upAxis() const { return n_WTarget.cross(rightAxis()); }
   /// Plane coordinates [m] of a point (its distance from the plane is dropped).
   Eigen::Vector2d planeCoordinates(const Eigen::Vector3d& p_W) const {
