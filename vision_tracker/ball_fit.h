@@ -24,11 +24,12 @@ struct BallFit {
   bool converged = false;
 };
 
-/// Fits a blurred disc of the guess's shape to the grey values: place, radius, and a cubic polynomial of the place for the
-/// shading, over a background that is known (Background::mean()). Gauss-Newton with at most 15 steps. A contour or a centroid would be
-/// drawn 0.2 to 1 px towards the lit side.
+/// Fits a blurred disc of the guess's shape to the grey values: place, radius, blur, and for the
+/// shading a lamp on a matt sphere plus a cubic polynomial of the place, over a background that is
+/// known (Background::mean()). Levenberg-Marquardt with at most 20 steps. A contour or a centroid
+/// would be drawn 0.2 to 1 px towards the lit side; a cubic alone 0.05 px away from the shadow.
 /// @param image CV_8U
-/// @param blur [px], standard deviation of lens and pixel together
+/// @param blur [px], standard deviation of lens and pixel together, to 30 %
 /// @param noise [grey levels], standard deviation
 BallFit fitBall(const cv::Mat& image,
                 const cv::Mat& background,
