@@ -14,7 +14,5 @@ void addRunCommand(CLI::App& app, int& exit_status);
 void addBenchCommand(CLI::App& app, int& exit_status);
 void addReplayCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);
-void addReplayCommand(CLI::App& app, int& exit_status);
-void addReportCommand(CLI::App& app, int& exit_status);
 
 }  // namespace fastball::launch
