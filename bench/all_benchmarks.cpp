@@ -1,5 +1,9 @@
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
+#include "bench/plan_rows.h"
+#include "bench/plan_rows.h"
+#include "bench/reach_rows.h"
+#include "bench/robust_rows.h"
 #include "bench/row.h"
 #include "bench/run_rows.h"
 #include "bench/scene_rows.h"
@@ -8,8 +12,8 @@ namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some :
-       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), sceneBenchmarks()}) {
+  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
+                           sceneBenchmarks(), planBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -41,12 +41,6 @@ model::Target readTarget(Section section) {
                                               target.n_WTarget.norm()));
   }
   target.n_WTarget.normalize();
-  if (target.n_WTarget.head<2>().norm() < 0.05) {
-    throw section.error("normal", "is vertical; the net must not lie flat");
-  }
-  if (target.distance(Eigen::Vector3d::Zero()) <= 0) {
-    throw section.error("normal", "points away from the robot at the origin");
-  }
   return target;
 }
 

@@ -12,7 +12,9 @@ namespace fastball::launch {
 /// failed experiment.
 void addRunCommand(CLI::App& app, int& exit_status);
 void addBenchCommand(CLI::App& app, int& exit_status);
+void addAtlasCommand(CLI::App& app, int& exit_status);
 void addReplayCommand(CLI::App& app, int& exit_status);
+void addFiguresCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);
 
 }  // namespace fastball::launch

@@ -34,7 +34,10 @@ class SkippingClock : public messaging::Clock {
 
 }  // namespace
 
-void runInOneProcess(const RunSetup& setup, Progress& progress, RunResult& result) {
+void runInOneProcess(const RunSetup& setup,
+                     Progress& progress,
+                     RunResult& result,
+                     const std::function<void(messaging::Endpoint&)>& listen) {
   const messaging::StopSignals signals;
   SkippingClock clock;
   messaging::LocalNetwork network(clock);
@@ -50,6 +53,8 @@ void runInOneProcess(const RunSetup& setup, Progress& progress, RunResult& resul
   ExperimentNode experiment(endpoint, clock, roster, setup.settings);
   network.addNode(experiment, endpoint);
   Judge judge(network.addEndpoint());
+  if (listen)
+    listen(network.addEndpoint());
   Verdicts verdicts(experiment, judge, setup.settings.target.radius, progress);
 
   const auto done = [&] {

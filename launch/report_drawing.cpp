@@ -2,9 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
+#include "launch/gnuplot.h"
 #include "launch/report.h"
 #include "model/arm.h"
 #include "model/ball_flight.h"
@@ -112,10 +112,6 @@ std::string ellipse(const landing_t& landing) {
   return outline;
 }
 
-std::string dataBlock(const std::string& name, const std::string& data) {
-  return fmt::format("${} << EOD\n{}EOD\n", name, data);
-}
-
 const char* kPanels = R"(
 set style fill transparent solid 0.55 border lc rgb '#40404080'
 set palette defined (-0.4 '#9db4d6', -0.001 '#1f4e9c', 0 '#d1495b', 0.7 '#f2a65a')
@@ -140,14 +136,6 @@ set xlabel 'right (mm)'; set ylabel 'up (mm)'
 set xrange [-140:140]; set yrange [-140:140]
 )";
 
-/// Hands a script to gnuplot. @throw std::runtime_error if it cannot be run or fails.
-void gnuplot(const std::string& script) {
-  std::FILE* pipe = popen("gnuplot", "w");
-  const bool written = pipe && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (!pipe || pclose(pipe) != 0 || !written)
-    throw std::runtime_error("gnuplot could not draw the picture (Debian package gnuplot-nox)");
-}
-
 void requireMessages(const ThrowRecord& record) {
   const char* missing = !record.request      ? "PLAN_REQUEST"
                         : !record.departed   ? "RELEASE of the ball's departure"
@@ -169,12 +157,12 @@ void drawThrow(const ThrowRecord& record,
   const model::Target target = targetOf(*record.request);
   const Strobe data = strobe(record, experiment);
   const double radius_mm = 1e3 * target.radius;
-  std::string script = dataBlock("arms", data.arms) + dataBlock("balls", data.balls) +
+  std::string blocks = dataBlock("arms", data.arms) + dataBlock("balls", data.balls) +
                        dataBlock("ring", ringOutline(target));
   std::string target_plot = "plot NaN\n";
   std::string outcome = "landing not measured";
   if (landing.measured) {
-    script += dataBlock("ellipse", ellipse(landing));
+    blocks += dataBlock("ellipse", ellipse(landing));
     const double right = 1e3 * landing.landing[0], up = 1e3 * landing.landing[1];
     target_plot = fmt::format(
         "set object 2 circle at {0},{1} size {2} fs transparent solid 0.25 noborder fc rgb "
@@ -189,16 +177,9 @@ void drawThrow(const ThrowRecord& record,
       fmt::format("Throw {}: arm and ball every {} ms, {}", number, kStrobeUs / 1000, outcome);
   const std::string panels = fmt::format(
       "set multiplot title '{}' font ',14'\n{}set object 1 circle at 0,0 size {} fs empty border "
-      "lc "
-      "rgb '#222222' lw 4\n{}unset multiplot\nunset output\n",
+      "lc rgb '#222222' lw 4\n{}unset multiplot\n",
       title, kPanels, radius_mm, target_plot);
-  gnuplot(script +
-          fmt::format("set terminal pngcairo size 1400,900 font 'sans,11'\nset output '{}.png'\n",
-                      path_stem) +
-          panels + "reset\n" +
-          fmt::format("set terminal svg size 1400,900 font 'sans,11'\nset output '{}.svg'\n",
-                      path_stem) +
-          panels);
+  drawPicture(path_stem, 1400, 900, blocks, panels);
 }
 
 }  // namespace fastball::launch

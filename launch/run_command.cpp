@@ -8,11 +8,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "launch/atlas_setup.h"
 #include "launch/commands.h"
 #include "launch/local_run.h"
 #include "launch/network_run.h"
 #include "launch/run_setup.h"
 #include "messaging/version.h"
+#include "planner/atlas_file.h"
 
 namespace fastball::launch {
 namespace {
@@ -34,6 +36,7 @@ int conduct(const RunOptions& options, RunResult& result) {
   result.log = setup.log;
   Progress progress;
   announce(setup, progress);
+  ensureAtlas(planner::loadConfig(setup.options.config), planner::atlasFolder(), false, progress);
   if (options.no_network) {
     runInOneProcess(setup, progress, result);
   } else {

@@ -12,6 +12,11 @@ using Vector4 = Eigen::Vector4d;
 using Matrix4 = Eigen::Matrix4d;
 using Jacobian = Eigen::Matrix<double, 3, kArmJoints>;
 
+// Defined in model/arm_derivatives.h.
+struct TorqueDerivatives;
+struct PointMotion;
+struct DirectionMotion;
+
 /// The 4-DOF WAM as rigid bodies in fixed-size Eigen: no function allocates or throws. World W:
 /// origin at the shoulder centre, x forward, y left, z up; zero pose: arm straight up. Tool frame
 /// T: on the tool plate, axes of DH frame 4 (z along the forearm, away from the elbow).
@@ -37,9 +42,20 @@ class Arm {
                                     const Vector4& qd,
                                     const Vector4& qdd,
                                     const Eigen::Vector3d& p_TP) const;
+  /// Position, velocity and acceleration of that point with their first derivatives.
+  PointMotion pointMotion(const Vector4& q,
+                          const Vector4& qd,
+                          const Vector4& qdd,
+                          const Eigen::Vector3d& p_TP) const;
+  /// z of the tool frame with its first derivative.
+  DirectionMotion toolAxis(const Vector4& q) const;
 
   /// Joint torques [N m] for a motion, Newton-Euler, drive inertia included, friction not.
   Vector4 inverseDynamics(const Vector4& q, const Vector4& qd, const Vector4& qdd) const;
+  /// The same torques with their first derivatives.
+  TorqueDerivatives inverseDynamicsDerivatives(const Vector4& q,
+                                               const Vector4& qd,
+                                               const Vector4& qdd) const;
   /// Joint torques [N m] that hold the arm still.
   Vector4 gravityTorque(const Vector4& q) const;
   /// Symmetric positive definite [kg m^2], drive inertia included.
@@ -48,6 +64,8 @@ class Arm {
   Vector4 forwardDynamics(const Vector4& q, const Vector4& qd, const Vector4& tau) const;
   /// Friction torque [N m] that opposes qd: viscous + Coulomb smoothed by tanh(qd / 0.01 rad/s).
   Vector4 frictionTorque(const Vector4& qd) const;
+  /// Derivative [N m s/rad] of each joint's friction torque by its own speed.
+  Vector4 frictionSlope(const Vector4& qd) const;
 
   /// Largest ratio of speed to limit over joints and differential; 1 is at the limit.
   double speedRatio(const Vector4& qd) const;

@@ -104,6 +104,16 @@ Vector4 Arm::frictionTorque(const Vector4& qd) const {
   return tau;
 }
 
+Vector4 Arm::frictionSlope(const Vector4& qd) const {
+  Vector4 slope;
+  for (int i = 0; i < kArmJoints; ++i) {
+    const double smoothed_sign = std::tanh(qd[i] / kCoulombSpeed);
+    slope[i] = parameters_.viscous_friction[i] + parameters_.coulomb_friction[i] / kCoulombSpeed *
+                                                     (1 - smoothed_sign * smoothed_sign);
+  }
+  return slope;
+}
+
 double Arm::speedRatio(const Vector4& qd) const {
   return limitRatio(qd, parameters_.qd_max, parameters_.differential);
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "model/arm.h"
+#include "model/arm_derivatives.h"
 #include "model/arm_rotation.h"
 #include "model/rigid_body.h"
 
@@ -107,6 +108,56 @@ Eigen::Vector3d Arm::pointAcceleration(const Vector4& q,
   const Eigen::Vector3d r =
       at.R_W[kArmJoints] * (p_TP + Eigen::Vector3d(0, 0, parameters_.tool_plate_distance));
   return a + dw.cross(r) + w.cross(w.cross(r));
+}
+
+// The angle of joint j turns P about the joint's axis, and with it P's motion relative to the link
+// below; what that link itself contributes changes only because P is elsewhere.
+PointMotion Arm::pointMotion(const Vector4& q,
+                             const Vector4& qd,
+                             const Vector4& qdd,
+                             const Eigen::Vector3d& p_TP) const {
+  struct Below {  // the link below joint j, and P if it were fixed in it
+    Eigen::Vector3d w, dw, v, a;
+  };
+  const Frames at = frames(q);
+  const Eigen::Vector3d p_4P = p_TP + Eigen::Vector3d(0, 0, parameters_.tool_plate_distance);
+  PointMotion point;
+  point.p = at.p_W[kArmJoints] + at.R_W[kArmJoints] * p_4P;
+  std::array<Below, kArmJoints + 1> below;
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  below[0] = {zero, zero, zero, zero};
+  for (int j = 0; j < kArmJoints; ++j) {
+    const Eigen::Vector3d axis = at.axis(j);
+    const Eigen::Vector3d arc = axis.cross(point.p - at.p_W[j]);
+    const auto& [w, dw, v, a] = below[j];
+    below[j + 1] = {w + axis * qd[j], dw + axis * qdd[j] + w.cross(axis) * qd[j], v + arc * qd[j],
+                    a + arc * qdd[j] + (2 * w + axis * qd[j]).cross(arc) * qd[j]};
+    point.J.col(j) = arc;
+  }
+  point.v = below[kArmJoints].v;
+  point.a = below[kArmJoints].a;
+  for (int j = 0; j < kArmJoints; ++j) {
+    const Eigen::Vector3d axis = at.axis(j);
+    const Eigen::Vector3d arc = point.J.col(j);
+    const auto& [w, dw, v, a] = below[j];
+    const Eigen::Vector3d v_turn = axis.cross(point.v - v);
+    const Eigen::Vector3d a_relative = point.a - a - 2 * w.cross(point.v - v);
+    point.dv_dq.col(j) = w.cross(arc) + v_turn;
+    point.da_dq.col(j) =
+        dw.cross(arc) + w.cross(w.cross(arc) + 2 * v_turn) + axis.cross(a_relative);
+  }
+  point.da_dqd = 2 * point.dv_dq;
+  return point;
+}
+
+DirectionMotion Arm::toolAxis(const Vector4& q) const {
+  const Frames at = frames(q);
+  DirectionMotion direction;
+  direction.e = at.R_W[kArmJoints].col(2);
+  for (int j = 0; j < kArmJoints; ++j) {
+    direction.de_dq.col(j) = at.axis(j).cross(direction.e);
+  }
+  return direction;
 }
 
 }  // namespace fastball::model

@@ -25,6 +25,14 @@ struct Arm::Rotation {
     R << cq, -sq * ca, sq * sa, sq, cq * ca, -cq * sa, 0, sa, ca;
     return R;
   }
+  /// R times the matrix, in place.
+  void turn(Eigen::Matrix3d* R) const {
+    const Eigen::Vector3d y = cq * R->col(1) - sq * R->col(0);
+    const Eigen::Vector3d z = R->col(2);
+    R->col(0) = cq * R->col(0) + sq * R->col(1);
+    R->col(1) = ca * y + sa * z;
+    R->col(2) = ca * z - sa * y;
+  }
 };
 
 }  // namespace fastball::model

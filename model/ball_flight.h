@@ -22,6 +22,28 @@ Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W,
 /// The ball `duration` [s] later (Runge-Kutta 4, steps of at most 5 ms).
 BallState fly(const BallState& start, double duration, double drag_per_metre, double gravity);
 
+/// The same with first derivatives by the velocity at the start; by the position they are the identity and zero, by the duration
+/// they are velocity and acceleration at the end. With the default steps [s] right to 1e-9 m.
+struct FlightDerivatives {
+  BallState state;
+  Eigen::Matrix3d dp_dv;  ///< [s]
+  Eigen::Matrix3d dv_dv;
+};
+FlightDerivatives flyWithDerivatives(const BallState& start,
+                                     double duration,
+                                     double drag_per_metre,
+                                     double gravity,
+                                     double largest_step = 0.02);
+
+/// The velocity [m/s] with which a ball at p_W is at `p_WGoal` after `duration` > 0 [s]. `guess`, if known, makes it faster.
+/// Not finite where drag forbids so short a flight.
+Eigen::Vector3d velocityToReach(const Eigen::Vector3d& p_W,
+                                const Eigen::Vector3d& p_WGoal,
+                                double duration,
+                                double drag_per_metre,
+                                double gravity,
+                                const std::optional<Eigen::Vector3d>& guess = {});
+
 /// Where and when the ball's centre crosses the target plane from the robot's side.
 struct Landing {
   double time = 0;                                    ///< [s] after the start

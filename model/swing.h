@@ -2,12 +2,9 @@
 
 #include <Eigen/Core>
 
-namespace fastball::model {
+#include "model/base_value.h"
 
-/// Value, first and second derivative of a base function in time.
-struct BaseValue {
-  double q = 0, qd = 0, qdd = 0;
-};
+namespace fastball::model {
 
 /// alpha sin(omega t + phi) + c between t_s and t_e, where its speed is zero (Eqs. 10, 12, 14); constant before and after.
 struct SinBase {
@@ -44,5 +41,21 @@ struct WamMotion {
   Eigen::Vector4d q, qd, qdd;
 };
 WamMotion wamFromSwing(const SwingAngles& swing, double gamma, int elbow_sign, double q3_near);
+/// The same with an upper arm whose polar angle moves.
+WamMotion wamFromSwing(const SwingAngles& swing,
+                       const BaseValue& gamma,
+                       int elbow_sign,
+                       double q3_near);
+
+/// The WAM's motion with its first derivatives by z = (q1, q2, q3, gamma). With q = f(z), qd = F zd and so on:
+/// dq/dz = dqd/dzd = dqdd/dzdd = F, dqd/dz = Fd, dqdd/dzd = 2 Fd, dqdd/dz = Fdd. Rows 3 and 4 are zero in the straight elbow.
+struct WamDerivatives {
+  WamMotion motion;
+  Eigen::Matrix4d F, Fd, Fdd;
+};
+WamDerivatives wamDerivatives(const SwingAngles& swing,
+                              const BaseValue& gamma,
+                              int elbow_sign,
+                              double q3_near);
 
 }  // namespace fastball::model

@@ -14,16 +14,52 @@ model::ReleaseCommand readRelease(config::Section section) {
   return release;
 }
 
-SwingSettings readSwing(config::Section section) {
+std::vector<Shoulder> readShoulders(config::Section& section) {
+  const std::string shoulder = section.choice("shoulder", {"held", "free", "as_needed"});
+  if (shoulder == "as_needed")
+    return {Shoulder::kHeld, Shoulder::kFree};
+  return {shoulder == "free" ? Shoulder::kFree : Shoulder::kHeld};
+}
+
+SwingSettings readSwing(config::Section& section) {
   SwingSettings swing;
   swing.omega_max = section.vector("omega_max", 3, {3, 20});
   swing.elbow_margin = section.number("elbow_margin", {0.05, 1});
   swing.body_clearance = section.number("body_clearance", {0, 0.8});
   swing.lowest_ball = section.number("lowest_ball", {-3, 0});
+  swing.flexion_limit = section.number("flexion_limit", {0.01, 1});
   swing.follow.delay = section.number("follow_through", {0.01, 0.2});
   swing.follow.brake_time = section.vector("brake_time", model::kArmJoints, {0.1, 1});
-  section.finish();
   return swing;
+}
+
+RobustSettings readRobust(config::Section section) {
+  RobustSettings robust;
+  const Eigen::VectorXd lengths = section.vector("window_lengths", 2, {0.005, 0.1});
+  robust.window_lengths.assign(lengths.begin(), lengths.end());
+  robust.limit_share = section.number("limit_share", {0.5, 1});
+  config::Section errors = section.section("errors");
+  robust.errors.joint_speed = errors.number("joint_speed", {0, 1});
+  robust.errors.grasp = errors.number("grasp", {0, 0.05});
+  robust.errors.drag = errors.number("drag", {0, 1});
+  errors.finish();
+  section.finish();
+  return robust;
+}
+
+AtlasSettings readAtlas(config::Section section) {
+  AtlasSettings atlas;
+  atlas.step = section.number("step", {0.02, 1});
+  const auto range = [&](const char* key, const config::Range& allowed) {
+    const Eigen::Vector2d ends = section.vector(key, 2, allowed);
+    if (!(ends[1] - ends[0] >= atlas.step))
+      throw section.error(key, "must span at least one step");
+    return ends;
+  };
+  atlas.distance = range("distance", {0.5, 20});
+  atlas.height = range("height", {-5, 10});
+  section.finish();
+  return atlas;
 }
 
 }  // namespace
@@ -39,14 +75,19 @@ PlannerConfig loadConfig(const std::string& path) {
   result.random_starts = section.integer("random_starts", 0, 1000);
   result.max_evaluations = section.integer("max_evaluations", 1, 10000);
   result.landing_tolerance = section.number("landing_tolerance", {1e-5, 0.1});
+  result.floor = section.number("floor", {-100, 0});
   result.motion.sample_time = section.number("sample_time", {0.001, 0.02});
   result.motion.max_samples = section.integer("max_samples", 100, 610);
   result.motion.ready_time = section.number("ready_time", {0, 10});
   result.motion.approach_speed = section.number("approach_speed", {0.05, 1});
-  result.swing = readSwing(section.section("swing"));
+  config::Section swing = section.section("swing");
+  result.shoulders = readShoulders(swing);
+  result.swing = readSwing(swing);
+  swing.finish();
   result.release = readRelease(section.section("release"));
+  result.robust = readRobust(section.section("robust"));
+  result.atlas = readAtlas(section.section("atlas"));
   section.finish();
-  result.swing.wrist_limit = result.hand.wrist_limit;
   return result;
 }
 

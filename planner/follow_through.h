@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "model/trajectory.h"
+#include "planner/motion_gradient.h"
 
 namespace fastball::planner {
 
@@ -14,6 +15,8 @@ struct FollowThrough {
 
   /// The motion t [s] after braking began in motion `from`: a quartic to rest for each joint.
   model::ArmMotion braked(const model::ArmMotion& from, double t) const;
+  /// Derivatives by `from` of what has the derivatives `g` by braked(from, t).
+  MotionGradient beforeBraking(const MotionGradient& g, double t) const;
 };
 
 }  // namespace fastball::planner

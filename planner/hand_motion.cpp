@@ -5,23 +5,45 @@
 namespace fastball::planner {
 
 ThrowDirection throwDirection(const model::Arm& arm,
-                              const model::ArmMotion& motion,
-                              const Eigen::Vector3d& p_TBall) {
+                              const model::Hand& hand,
+                              const model::ArmMotion& motion) {
+  constexpr int kRounds = 50;
+  constexpr double kSettled = 1e-13;  // [rad]
   const Eigen::Matrix3d R_WT = arm.X_WT(motion.q).linear();
-  const Eigen::Vector3d v_W = arm.pointJacobian(motion.q, p_TBall) * motion.qd;
-  const Eigen::Vector3d v_T = R_WT.transpose() * v_W;
+  // Velocity of the point of T where a hand that is not turned has its ball, and how others move about it.
+  const Eigen::Vector3d& p_HBall = hand.parameters().p_HBall;
+  const Eigen::Vector3d v_T = R_WT.transpose() * (arm.pointJacobian(motion.q, p_HBall) * motion.qd);
+  const Eigen::Vector3d w_T = R_WT.transpose() * (arm.rotationJacobian(motion.q) * motion.qd);
   ThrowDirection direction;
-  direction.wrist_roll = std::atan2(-v_T.x(), v_T.y());
-  direction.y_WH =
-      R_WT * Eigen::Vector3d(-std::sin(direction.wrist_roll), std::cos(direction.wrist_roll), 0);
+  WristAngles& wrist = direction.wrist;
+  // A turn of the wrist by 1 rad moves the ball by 0.15 m, which turns its velocity by some 0.2 rad: this converges.
+  for (int i = 0; i < kRounds; ++i) {
+    const Eigen::Vector3d p_TBall = hand.X_TH(wrist.roll, wrist.flexion) * p_HBall;
+    const Eigen::Vector3d v = v_T + w_T.cross(p_TBall - p_HBall);
+    const WristAngles next{std::atan2(-v.x(), v.y()), std::atan2(v.z(), v.head<2>().norm())};
+    const double change = std::abs(next.roll - wrist.roll) + std::abs(next.flexion - wrist.flexion);
+    wrist = next;
+    direction.speed = v.norm();
+    if (change < kSettled)
+      break;
+  }
+  direction.y_WH = R_WT * hand.X_TH(wrist.roll, wrist.flexion).linear().col(1);
   return direction;
+}
+
+double throwRoll(const model::Arm& arm,
+                 const model::ArmMotion& motion,
+                 const Eigen::Vector3d& p_TBall) {
+  const Eigen::Vector3d v_T =
+      arm.X_WT(motion.q).linear().transpose() * (arm.pointJacobian(motion.q, p_TBall) * motion.qd);
+  return std::atan2(-v_T.x(), v_T.y());
 }
 
 model::HandMotion handMotion(const model::Arm& arm,
                              const model::Hand& hand,
-                             double roll,
+                             const WristAngles& wrist,
                              const model::ArmMotion& motion) {
-  const Eigen::Isometry3d X_TH = hand.X_TH(roll, 0);
+  const Eigen::Isometry3d X_TH = hand.X_TH(wrist.roll, wrist.flexion);
   const Eigen::Vector3d p_TH = X_TH.translation();
   model::HandMotion result;
   result.X_WH = arm.X_WT(motion.q) * X_TH;

@@ -9,19 +9,31 @@
 
 namespace fastball::planner {
 
+struct WristAngles {
+  double roll = 0, flexion = 0;  ///< [rad]
+};
+
 /// How the hand must be turned for a throw.
 struct ThrowDirection {
-  Eigen::Vector3d y_WH;   ///< unit vector: ball velocity's component across the forearm
-  double wrist_roll = 0;  ///< [rad], wrist roll that puts y of H there
+  Eigen::Vector3d y_WH;  ///< unit vector along the ball's velocity
+  WristAngles
+      wrist;  ///< put y of H there, so that Eq. (25) holds: the ball does not move along x or z of H
+  double speed = 0;  ///< [m/s], of the ball in the hand so turned
 };
+/// The wrist moves the ball, and with it the velocity: solved by iteration.
 ThrowDirection throwDirection(const model::Arm& arm,
-                              const model::ArmMotion& motion,
-                              const Eigen::Vector3d& p_TBall);
+                              const model::Hand& hand,
+                              const model::ArmMotion& motion);
 
-/// The hand frame's motion that an arm motion makes, the wrist held at `roll` [rad] and no flexion.
+/// The roll [rad] that turns y of H into the plane of the forearm and the ball's velocity, without flexion.
+double throwRoll(const model::Arm& arm,
+                 const model::ArmMotion& motion,
+                 const Eigen::Vector3d& p_TBall);
+
+/// The hand frame's motion that an arm motion makes, the wrist held.
 model::HandMotion handMotion(const model::Arm& arm,
                              const model::Hand& hand,
-                             double roll,
+                             const WristAngles& wrist,
                              const model::ArmMotion& motion);
 
 }  // namespace fastball::planner

@@ -1,10 +1,13 @@
 #include "planner/node.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <deque>
 #include <optional>
 
 #include "config/experiment.h"
+#include "planner/atlas_file.h"
 #include "planner/plan_message.h"
 #include "planner/planner.h"
 
@@ -27,8 +30,9 @@ class PlannerNode : public messaging::Node {
  public:
   PlannerNode(messaging::Endpoint& endpoint,
               const messaging::Clock& clock,
-              const PlannerConfig& config)
-      : clock_(clock), planner_(config), plans_(endpoint, messaging::kSwingPlan) {
+              const PlannerConfig& config,
+              std::shared_ptr<const Atlas> atlas)
+      : clock_(clock), planner_(config, {}, std::move(atlas)), plans_(endpoint, messaging::kSwingPlan) {
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
                                        [this](const plan_request_t& m) { takeRequest(m); });
   }
@@ -90,13 +94,24 @@ class PlannerNode : public messaging::Node {
   std::optional<Answered> answered_;
 };
 
+/// The atlas of the configuration, or null.
+std::shared_ptr<const Atlas> foundAtlas(const PlannerConfig& config) {
+  const std::filesystem::path folder = atlasFolder();
+  if (folder.empty())
+    return nullptr;
+  FoundAtlas found = loadAtlas(config, atlasPath(config, folder));
+  if (!found.fault.empty())
+    spdlog::warn("each throw is planned from the start: {}", found.fault);
+  return found.atlas ? std::make_shared<const Atlas>(*std::move(found.atlas)) : nullptr;
+}
+
 }  // namespace
 
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options) {
-  const std::string path = config::experimentPath(options.config);
-  return std::make_unique<PlannerNode>(endpoint, clock, loadConfig(path));
+  const PlannerConfig config = loadConfig(config::experimentPath(options.config));
+  return std::make_unique<PlannerNode>(endpoint, clock, config, foundAtlas(config));
 }
 
 }  // namespace fastball::planner

@@ -22,6 +22,9 @@ struct ThrowRequest {
   int64_t seed = 0;  ///< of the random starts
 };
 
+/// Sine of the least angle at which a ball may meet the plane of the ring, from its front.
+inline constexpr double kLeastSteepness = 0.35;
+
 /// A throw. Times [s] count from the start of the plan.
 struct Plan {
   std::string strategy;
@@ -36,7 +39,7 @@ struct Plan {
   model::BallState release;          ///< ball just after it has left
   Eigen::Vector2d landing = Eigen::Vector2d::Zero();  ///< [m], target plane
   double flight_time = 0;                             ///< [s]
-  double wrist_roll = 0;                              ///< [rad]
+  double wrist_roll = 0, wrist_flexion = 0;           ///< [rad]
   double grip_force = 0;                              ///< [N]
   std::vector<std::pair<std::string, double>>
       parameters;  ///< what made the trajectory, in plan time

@@ -35,7 +35,7 @@ void putPlan(const Plan& plan, swing_plan_t& message) {
   std::copy_n(plan.landing.data(), 2, message.landing);
   message.flight_time = plan.flight_time;
   message.q_wrist[0] = plan.wrist_roll;
-  message.q_wrist[1] = 0;
+  message.q_wrist[1] = plan.wrist_flexion;
   message.grip_force = plan.grip_force;
   message.n_parameters = static_cast<int32_t>(plan.parameters.size());
   for (const auto& [name, value] : plan.parameters) {

@@ -8,234 +8,267 @@
 #include "planner/limit_check.h"
 #include "planner/needed_speed.h"
 #include "planner/request_check.h"
-#include "planner/starts.h"
 
 namespace fastball::planner {
 namespace {
 
-// Largest violation of the constraints in a solution that counts, and in one that has been corrected for the aim.
-constexpr double kSolved = 1e-4, kCorrected = 1e-3;
-constexpr int kAimRounds = 8;
-constexpr int kCorrectionEvaluations = 30;
-// Solutions tried before giving up.
-constexpr std::size_t kCandidates = 3;
-// Of the limits, if the grid of 1 ms finds more than the optimiser's samples did.
-constexpr double kTightening[] = {1, 0.98, 0.96};
-// [m/s per s], what a second of approach is worth.
-constexpr double kApproachPrice = 0.1;
-// [s], either side of the predicted release: how well the time of an abrupt release is known.
-constexpr double kWindow = 1e-3;
+// Throws of the atlas tried before planning anew.
+constexpr std::size_t kCandidates = 4;
+// So much less steeply than allowed a throw of the atlas may meet the ring to be tried: it is not yet aimed.
+constexpr double kSteepnessReserve = 0.02;
+// Of what a throw is interpolated from, as much must be inside the limits for it to be tried before others.
+constexpr double kLikely = 0.5;
+// Looking for the nearest target that works: nodes from which to begin, halvings of the way to the target.
+constexpr std::size_t kPlacesTried = 8;
+constexpr int kBisections = 7, kBisectionsAnew = 4;
+constexpr double kPlace = 0.01;   // [m], to which a place is told
+constexpr double kFacing = 1e-3;  // of unit vectors that are the same
 
-std::vector<SwingSolution> solvedOnes(const std::vector<SwingSolution>& solutions) {
-  std::vector<SwingSolution> solved;
-  std::copy_if(solutions.begin(), solutions.end(), std::back_inserter(solved),
-               [](const SwingSolution& s) { return s.violation < kSolved; });
-  return solved;
-}
-
-/// Phase of a sin base function whose time runs from t0 later.
-double shiftedPhase(double phi, double omega, double t0) {
-  return std::remainder(phi - omega * t0, 2 * M_PI);
+/// The normal of a ring that faces the robot.
+Eigen::Vector3d facingRobot(const Eigen::Vector3d& p_WTarget) {
+  Eigen::Vector3d n(-p_WTarget.x(), -p_WTarget.y(), 0);
+  return n.isZero() ? Eigen::Vector3d(-Eigen::Vector3d::UnitX()) : n.normalized();
 }
 
 }  // namespace
 
-/// A swing whose ball is predicted to land where it shall.
-struct Planner::Aimed {
-  SwingSolution solution;
-  WholeMotion motion;
-  ReleasePrediction prediction;
-};
-
-Planner::Planner(const PlannerConfig& config, PredictDeparture departure)
+Planner::Planner(const PlannerConfig& config,
+                 PredictDeparture departure,
+                 std::shared_ptr<const Atlas> atlas)
     : config_(config),
       arm_(config.arm, config.hand.payload),
-      predictor_(config_, arm_, departure ? std::move(departure) : elasticDeparture(config)) {}
+      predictor_(config_, arm_, departure ? std::move(departure) : elasticDeparture(config)),
+      windows_(config_, arm_, predictor_),
+      swings_(config_, arm_, predictor_),
+      config_fault_(configFault(config)),
+      atlas_(std::move(atlas)) {}
 
-SwingTask Planner::taskFor(const ThrowRequest& request) const {
-  SwingTask task;
-  task.arm = &arm_;
-  task.ball = config_.ball;
-  task.target = request.target;
-  task.p_TBall = config_.hand.p_HBall;
-  task.settings = config_.swing;
-  task.limit_factor = config_.limit_share;
-  return task;
+std::vector<ThrowKind> Planner::kindsFor(const std::string& strategy) const {
+  // Out of reach of any window: the fastest throw of all.
+  if (strategy == "robust")
+    return {ThrowKind::kWindow, ThrowKind::kFreeSwing};
+  std::vector<ThrowKind> kinds;
+  for (const Shoulder shoulder : config_.shoulders)
+    kinds.push_back(shoulder == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing);
+  return kinds;
 }
 
-std::vector<SwingSolution> Planner::solveAll(const SwingTask& task,
-                                             const ThrowRequest& request) const {
+/// A throw of the atlas with what speaks for it.
+struct Planner::Candidate {
+  AtlasThrow start;
+  ThrowKind kind;
+  int preference;  ///< of its kind
+  double worth;
+
+  bool likely() const { return start.inside >= kLikely && start.departs_alike; }
+  bool before(const Candidate& other) const {
+    if (likely() != other.likely())
+      return likely();
+    if (preference != other.preference)
+      return preference < other.preference;
+    if (start.window != other.start.window)
+      return start.window > other.start.window;
+    return worth > other.worth;
+  }
+};
+
+std::vector<Planner::Candidate> Planner::candidates(const ThrowRequest& request) const {
   const Eigen::Vector3d& p = request.target.p_WTarget;
-  std::vector<SwingSolution> solutions;
-  for (const Start& start :
-       swingStarts(std::atan2(p.y(), p.x()), config_.random_starts, request.seed)) {
-    solutions.push_back(optimiseSwing(task, start.x, start.elbow_sign, config_.max_evaluations));
-  }
-  return solutions;
-}
-
-std::vector<SwingSolution> Planner::solveHarder(const SwingTask& task,
-                                                std::vector<SwingSolution> solutions) const {
-  std::stable_sort(
-      solutions.begin(), solutions.end(),
-      [](const SwingSolution& a, const SwingSolution& b) { return a.violation < b.violation; });
-  solutions.resize(std::min(solutions.size(), kCandidates));
-  for (SwingSolution& solution : solutions) {
-    // First into the limits, then to the fastest throw there.
-    solution = correctSwing(task, solution, config_.max_evaluations);
-    const SwingSolution faster =
-        optimiseSwing(task, solution.x, solution.elbow_sign, config_.max_evaluations);
-    if (faster.violation < kSolved)
-      solution = faster;
-  }
-  return solutions;
-}
-
-void Planner::sortByWorth(std::vector<SwingSolution>& solutions,
-                          const ThrowRequest& request) const {
-  const auto worth = [&](const SwingSolution& solution) {
-    const SwingCurve curve(solution.x, solution.elbow_sign);
-    const double approach =
-        approachTime(arm_, config_.motion, request.q_arm, curve.at(curve.begin()).q);
-    return solution.release_speed - kApproachPrice * approach;
+  const double azimuth = std::atan2(p.y(), p.x());
+  const Eigen::Array4d margin = Eigen::Array4d::Constant(config_.arm.position_margin);
+  const auto candidate = [&](const AtlasThrow& seen, ThrowKind kind,
+                             int preference) -> std::optional<Candidate> {
+    const Eigen::Array4d q = seen.q_ready.array();
+    if (seen.steepness(request.target.n_WTarget) < kLeastSteepness - kSteepnessReserve ||
+        (q < config_.arm.q_min.array() + margin).any() ||
+        (q > config_.arm.q_max.array() - margin).any())
+      return {};
+    const double price = kind == ThrowKind::kWindow ? WindowPlanner::kApproachPrice
+                                                    : SwingPlanner::kApproachPrice;
+    const double approach = approachTime(arm_, config_.motion, request.q_arm, seen.q_ready);
+    return Candidate{seen, kind, preference, -seen.cost - price * approach};
   };
-  std::stable_sort(
-      solutions.begin(), solutions.end(),
-      [&](const SwingSolution& a, const SwingSolution& b) { return worth(a) > worth(b); });
-}
-
-std::variant<Planner::Aimed, Refusal> Planner::aim(SwingTask task,
-                                                   SwingSolution solution,
-                                                   const ThrowRequest& request) const {
-  double miss = 0, lead = 0;
-  for (int round = 0; round < kAimRounds; ++round) {
-    const SwingCurve curve(solution.x, solution.elbow_sign);
-    WholeMotion motion =
-        wholeMotion(arm_, config_.motion, config_.swing.follow, request.q_arm, curve);
-    if (round == 0)
-      lead = predictor_.commandTime(motion) - motion.t_zero;
-    const double t_command = 1e-3 * std::round(1e3 * (motion.t_zero + lead));
-    const auto prediction = predictor_.predict(motion, request.target, t_command);
-    if (!prediction)
-      return Refusal{"the ball is predicted not to leave the hand for the target"};
-    miss = prediction->landing.landing.norm();
-    if (miss <= config_.landing_tolerance)
-      return Aimed{solution, std::move(motion), *prediction};
-    // What the fingers do to the ball hardly depends on the aim: shift it by the miss.
-    task.aim -= prediction->landing.landing;
-    solution = correctSwing(task, solution, kCorrectionEvaluations);
-    if (solution.violation > kCorrected) {
-      return Refusal{"the swing aimed so that the ball lands right " +
-                     SwingProblem(task, solution.elbow_sign).worstConstraint(solution.x)};
+  std::vector<Candidate> found;
+  int preference = 0;
+  for (const ThrowKind kind : kindsFor(request.strategy)) {
+    for (const AtlasThrow& ahead : atlas_->near(p.head<2>().norm(), p.z(), kind)) {
+      const auto own = candidate(turned(ahead, azimuth), kind, preference);
+      const auto other = candidate(turned(mirrored(ahead), azimuth), kind, preference);
+      // What hinders one of the two hinders the other.
+      if (own && (!other || !other->before(*own))) {
+        found.push_back(*own);
+      } else if (other) {
+        found.push_back(*other);
+      }
     }
+    ++preference;
   }
-  return Refusal{
-      fmt::format("the aim does not settle: after {} rounds the predicted landing is {:.1f} mm off",
-                  kAimRounds, 1e3 * miss)};
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.before(b); });
+  return found;
 }
 
-Plan Planner::assemble(const Aimed& aimed, const ThrowRequest& request) const {
-  Plan plan;
-  plan.strategy = request.strategy;
-  plan.trajectory = aimed.motion.trajectory;
-  plan.t_ready = aimed.motion.t_ready;
-  plan.t_swing = aimed.motion.t_swing;
-  plan.t_swing_end = aimed.motion.t_swing_end;
-  plan.t_release_command = aimed.prediction.t_command;
-  plan.t_release = aimed.prediction.t_departure;
-  plan.release_window = {plan.t_release - kWindow, plan.t_release + kWindow};
-  plan.residual_acceleration = predictor_.residualAcceleration(
-      plan.trajectory, plan.release_window[0], plan.release_window[1]);
-  plan.release = aimed.prediction.ball;
-  plan.landing = aimed.prediction.landing.landing;
-  plan.flight_time = aimed.prediction.landing.time;
-  plan.wrist_roll = aimed.prediction.wrist_roll;
-  plan.grip_force = config_.release.grip_force;
-  SwingVector x = aimed.solution.x;
-  x[kPhi1] = shiftedPhase(x[kPhi1], x[kOmega1], aimed.motion.t_zero);
-  x[kPhi3] = shiftedPhase(x[kPhi3], x[kOmega3], aimed.motion.t_zero);
-  x[kSwitch2] += aimed.motion.t_zero;
-  for (int i = 0; i < kSwingVariables; ++i) {
-    plan.parameters.emplace_back(swingVariableNames()[i], x[i]);
+std::optional<Plan> Planner::planNear(const ThrowRequest& request,
+                                      const Candidate& candidate) const {
+  if (candidate.kind == ThrowKind::kWindow)
+    return windows_.planNear(request, candidate.start);
+  return swings_.planNear(
+      request, candidate.start,
+      candidate.kind == ThrowKind::kFreeSwing ? Shoulder::kFree : Shoulder::kHeld);
+}
+
+std::optional<Plan> Planner::fromAtlas(const ThrowRequest& request) const {
+  std::vector<Candidate> found = candidates(request);
+  found.resize(std::min(found.size(), kCandidates));
+  for (const Candidate& candidate : found) {
+    if (auto plan = planNear(request, candidate))
+      return plan;
   }
-  plan.parameters.emplace_back("elbow_sign", aimed.solution.elbow_sign);
-  return plan;
+  return {};
 }
 
 PlanResult Planner::plan(const ThrowRequest& request) const {
-  if (auto fault = requestFault(request, config_.arm, config_.hand.p_HBall)) {
+  if (config_fault_)
+    return Refusal{*config_fault_};
+  if (auto fault = requestFault(request, config_))
     return Refusal{*fault};
+  if (atlas_) {
+    if (auto plan = fromAtlas(request))
+      return *std::move(plan);
   }
-  SwingTask task = taskFor(request);
-  const std::vector<SwingSolution> solutions = solveAll(task, request);
-  std::vector<SwingSolution> candidates = solvedOnes(solutions);
-  if (candidates.empty())
-    candidates = solvedOnes(solveHarder(task, solutions));
-  if (candidates.empty())
-    return explain(task, solutions, request);
-  sortByWorth(candidates, request);
-  candidates.resize(std::min(candidates.size(), kCandidates));
-  std::string obstacle;
-  for (const SwingSolution& candidate : candidates) {
-    for (const double tightening : kTightening) {
-      task.limit_factor = tightening * config_.limit_share;
-      const SwingSolution solution =
-          tightening == 1
-              ? candidate
-              : optimiseSwing(task, candidate.x, candidate.elbow_sign, config_.max_evaluations);
-      const auto aimed = aim(task, solution, request);
-      if (const Refusal* refusal = std::get_if<Refusal>(&aimed)) {
-        obstacle = refusal->sentence;
-        continue;
-      }
-      const auto& throw_found = std::get<Aimed>(aimed);
-      const LimitUse use = checkLimits(arm_, throw_found.motion.trajectory);
-      if (!use.violation)
-        return assemble(throw_found, request);
-      obstacle = *use.violation;
-    }
-  }
-  return Refusal{"no throw found inside all limits: " + obstacle};
+  PlanResult result = planAnew(request);
+  if (const Refusal* refusal = std::get_if<Refusal>(&result))
+    return explain(request, refusal->sentence);
+  return result;
 }
 
-Refusal Planner::explain(const SwingTask& task,
-                         const std::vector<SwingSolution>& solutions,
-                         const ThrowRequest& request) const {
-  SwingTask free_task = task;
-  free_task.must_land = false;
-  SwingSolution fastest;
-  for (const SwingSolution& solution : solveAll(free_task, request)) {
-    if (solution.violation < kSolved && solution.release_speed > fastest.release_speed) {
-      fastest = solution;
+PlanResult Planner::planAnew(const ThrowRequest& request) const {
+  if (request.strategy != "robust")
+    return swings_.plan(request, config_.shoulders);
+  if (std::optional<Plan> plan = windows_.plan(request))
+    return *std::move(plan);
+  return swings_.plan(request, {Shoulder::kFree});
+}
+
+std::optional<Plan> Planner::nearestPlan(const ThrowRequest& request,
+                                         Eigen::Vector3d& place) const {
+  const Eigen::Vector3d& p = request.target.p_WTarget;
+  const Eigen::Vector3d forward = facingRobot(p) * -1;
+  const auto tried = [&](const Eigen::Vector2d& at) -> std::optional<Plan> {
+    ThrowRequest there = request;
+    // As it will be read: a place that works must work as it is written.
+    for (const int axis : {0, 1})
+      there.target.p_WTarget[axis] = kPlace * std::round(at[0] * forward[axis] / kPlace);
+    there.target.p_WTarget.z() = kPlace * std::round(at[1] / kPlace);
+    if (requestFault(there, config_))
+      return {};
+    std::optional<Plan> plan;
+    if (atlas_) {
+      plan = fromAtlas(there);
+    } else {
+      PlanResult result = planAnew(there);
+      if (Plan* found = std::get_if<Plan>(&result))
+        plan = std::move(*found);
+    }
+    if (plan)
+      place = there.target.p_WTarget;
+    return plan;
+  };
+  const Eigen::Vector2d wanted(p.head<2>().norm(), p.z());
+  Eigen::Vector2d works;
+  std::optional<Plan> plan;
+  for (const Eigen::Vector2d& start : easierPlaces(wanted)) {
+    works = start;
+    if ((plan = tried(start)))
+      break;
+  }
+  if (!plan)
+    return {};
+  Eigen::Vector2d fails = wanted;
+  for (int i = 0; i < (atlas_ ? kBisections : kBisectionsAnew); ++i) {
+    const Eigen::Vector2d middle = (works + fails) / 2;
+    if (auto better = tried(middle)) {
+      plan = std::move(better);
+      works = middle;
+    } else {
+      fails = middle;
     }
   }
-  const Eigen::Vector3d& p = request.target.p_WTarget;
+  return plan;
+}
+
+std::vector<Eigen::Vector2d> Planner::easierPlaces(const Eigen::Vector2d& wanted) const {
+  if (!atlas_) {
+    const Eigen::Vector2d& height = config_.atlas.height;
+    return {{config_.atlas.distance[0], height.mean()}, {config_.atlas.distance[0], height[0] / 2}};
+  }
+  const AtlasGrid& grid = atlas_->grid();
+  std::vector<Eigen::Vector2d> places;
+  for (int node = 0; node < grid.nodes(); ++node) {
+    if (atlas_->holdsThrow(node))
+      places.push_back(grid.place(node));
+  }
+  std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return (a - wanted).squaredNorm() < (b - wanted).squaredNorm();
+  });
+  places.resize(std::min(places.size(), kPlacesTried));
+  return places;
+}
+
+Refusal Planner::explain(const ThrowRequest& request, const std::string& obstacle) const {
+  const Eigen::Vector3d &p = request.target.p_WTarget, &n = request.target.n_WTarget;
   const std::string place = fmt::format("({:.3g}, {:.3g}, {:.3g}) m", p.x(), p.y(), p.z());
+  ThrowRequest facing = request;
+  facing.target.n_WTarget = facingRobot(p);
+  const bool faces_robot = (facing.target.n_WTarget - n).norm() < kFacing;
+  const auto planned = [&] {
+    return (atlas_ && fromAtlas(facing)) || std::holds_alternative<Plan>(planAnew(facing));
+  };
+  if (!faces_robot && planned()) {
+    return Refusal{fmt::format(
+        "no throw found comes through the front of the ring at {}, which faces ({:.3g}, {:.3g}, "
+        "{:.3g}), at {:.0f} degrees to its plane or more; a ring there that faces the robot can be "
+        "hit",
+        place, n.x(), n.y(), n.z(), std::asin(kLeastSteepness) * 180 / M_PI)};
+  }
+  std::string sentence = outOfReach(request, place, obstacle);
+  Eigen::Vector3d nearest;
+  if (const auto plan = nearestPlan(facing, nearest)) {
+    sentence += fmt::format("; the nearest that works is at ({:.3g}, {:.3g}, {:.3g}) m, where {}",
+                            nearest.x(), nearest.y(), nearest.z(),
+                            tightestLimit(arm_, plan->trajectory));
+  }
+  return Refusal{sentence};
+}
+
+std::string Planner::outOfReach(const ThrowRequest& request,
+                                const std::string& place,
+                                const std::string& obstacle) const {
   const auto needed = neededSpeed(request.target, armReach(config_.arm, config_.hand.p_HBall),
                                   config_.ball.dragPerMetre(), config_.arm.gravity);
   if (!needed) {
-    return Refusal{
-        fmt::format("the target at {} is out of reach: with its drag, no ball thrown at up to 100 "
-                    "m/s gets there",
-                    place)};
+    return fmt::format("the target at {} is out of reach: with its drag, no ball thrown at up to "
+                       "100 m/s gets there",
+                       place);
   }
+  const Shoulder shoulder =
+      request.strategy == "robust" ? Shoulder::kFree : config_.shoulders.back();
+  const SwingSolution fastest = swings_.fastest(request, shoulder);
+  if (fastest.release_speed == 0)
+    return "no throw at all is found inside the limits of the arm " + config_.arm.profile;
   if (*needed > fastest.release_speed) {
     const Eigen::Vector4d share =
         SwingCurve(fastest.x, fastest.elbow_sign).at(0).qd.cwiseQuotient(config_.arm.qd_max);
     int joint = 0;
     share.cwiseAbs().maxCoeff(&joint);
-    return Refusal{fmt::format(
+    return fmt::format(
         "the target at {} is out of reach: {:.1f} m/s or more would be needed, the fastest throw "
         "found leaves at {:.1f} m/s (joint {} is then at {:.0f} % of its {:.4g} rad/s, {})",
         place, *needed, fastest.release_speed, joint + 1, 100 * std::abs(share[joint]),
-        config_.arm.qd_max[joint], config_.arm.profile)};
+        config_.arm.qd_max[joint], config_.arm.profile);
   }
-  const auto nearest = std::min_element(
-      solutions.begin(), solutions.end(),
-      [](const SwingSolution& a, const SwingSolution& b) { return a.violation < b.violation; });
-  return Refusal{fmt::format(
-      "no throw to {} found inside all limits: the best one, at {:.1f} m/s, {}", place,
-      nearest->release_speed, SwingProblem(task, nearest->elbow_sign).worstConstraint(nearest->x))};
+  return fmt::format("no throw to {} found inside all limits of {}: {}", place, config_.arm.profile,
+                     obstacle);
 }
 
 }  // namespace fastball::planner

@@ -1,44 +1,62 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/atlas.h"
 #include "planner/config.h"
 #include "planner/plan.h"
 #include "planner/release_prediction.h"
+#include "planner/swing_planner.h"
+#include "planner/window_planner.h"
 
 namespace fastball::planner {
 
-/// Plans throws by the kinetic chain: the base functions of Eq. (12) in the analogous swing model (section 2.6) on the WAM,
-/// their parameters by Eq. (15), release by Eqs. (24) and (25). Answers depend on the request alone.
+/// Plans throws. Strategy `paper`: the kinetic chain. Strategy `robust`: through a release window where one is within reach, else
+/// the kinetic chain with joint 2. From an atlas where there is one, else from the stored starts. Answers depend on the request
+/// and the atlas alone.
 class Planner {
  public:
   /// @param departure how the ball leaves the hand; default: elastic, with the configuration's fingers.
-  explicit Planner(const PlannerConfig& config, PredictDeparture departure = {});
+  /// @param atlas made for this configuration, or null. Its balls leave elastically.
+  explicit Planner(const PlannerConfig& config,
+                   PredictDeparture departure = {},
+                   std::shared_ptr<const Atlas> atlas = nullptr);
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
-  /// A plan inside all limits on a 1 ms grid whose predicted landing is at the target's centre, or why there is none.
+  /// A plan inside all limits on a grid of 0.1 ms whose predicted landing is at the target's centre, or why there is none.
   PlanResult plan(const ThrowRequest& request) const;
+  /// The same from the atlas alone; nothing if no throw in it leads to one in a few steps.
+  std::optional<Plan> fromAtlas(const ThrowRequest& request) const;
   const PlannerConfig& config() const { return config_; }
   const model::Arm& arm() const { return arm_; }
 
  private:
-  struct Aimed;
-  SwingTask taskFor(const ThrowRequest& request) const;
-  std::vector<SwingSolution> solveAll(const SwingTask& task, const ThrowRequest& request) const;
-  /// A second try for the solutions that are nearest to keeping all constraints.
-  std::vector<SwingSolution> solveHarder(const SwingTask& task,
-                                         std::vector<SwingSolution> solutions) const;
-  void sortByWorth(std::vector<SwingSolution>& solutions, const ThrowRequest& request) const;
-  std::variant<Aimed, Refusal> aim(SwingTask task,
-                                   SwingSolution solution,
-                                   const ThrowRequest& request) const;
-  Plan assemble(const Aimed& aimed, const ThrowRequest& request) const;
-  Refusal explain(const SwingTask& task,
-                  const std::vector<SwingSolution>& solutions,
-                  const ThrowRequest& request) const;
+  std::vector<ThrowKind> kindsFor(const std::string& strategy) const;
+  struct Candidate;
+  /// Throws of the atlas seen from the target's azimuth, the most promising first.
+  std::vector<Candidate> candidates(const ThrowRequest& request) const;
+  std::optional<Plan> planNear(const ThrowRequest& request, const Candidate& candidate) const;
+  PlanResult planAnew(const ThrowRequest& request) const;
+  Refusal explain(const ThrowRequest& request, const std::string& obstacle) const;
+  /// A place at the target's azimuth, near the target, for which there is a throw: on the way to the target from one that is easier.
+  std::optional<Plan> nearestPlan(const ThrowRequest& request, Eigen::Vector3d& place) const;
+  /// Distances and heights [m] of places where a throw is likely, nearest to the wanted one first.
+  std::vector<Eigen::Vector2d> easierPlaces(const Eigen::Vector2d& wanted) const;
+  std::string outOfReach(const ThrowRequest& request,
+                         const std::string& place,
+                         const std::string& obstacle) const;
 
   PlannerConfig config_;
   model::Arm arm_;
   ReleasePredictor predictor_;
+  WindowPlanner windows_;
+  SwingPlanner swings_;
+  std::optional<std::string> config_fault_;
+  std::shared_ptr<const Atlas> atlas_;
 };
 
 }  // namespace fastball::planner

@@ -40,29 +40,38 @@ ReleasePredictor::ReleasePredictor(const PlannerConfig& config,
                                    PredictDeparture departure)
     : config_(config), arm_(arm), hand_(config.hand), departure_(std::move(departure)) {}
 
-double ReleasePredictor::wristRoll(const WholeMotion& motion) const {
-  return throwDirection(arm_, motion.trajectory.at(motion.t_zero), config_.hand.p_HBall).wrist_roll;
+WristAngles ReleasePredictor::wristAngles(const WholeMotion& motion) const {
+  return throwDirection(arm_, hand_, motion.trajectory.at(motion.t_zero)).wrist;
 }
 
 std::optional<ReleasePrediction> ReleasePredictor::predict(const WholeMotion& motion,
+                                                           const WristAngles& wrist,
                                                            const model::Target& target,
                                                            double t_command) const {
-  const double roll = wristRoll(motion);
-  const model::Departure left = departure_(
-      [&](double t) { return handMotion(arm_, hand_, roll, motion.trajectory.at(t_command + t)); });
+  const model::Departure left = departure_([&](double t) {
+    return handMotion(arm_, hand_, wrist, motion.trajectory.at(t_command + t));
+  });
   if (!left.departed || left.time < 0)
     return {};
   const std::optional<model::Landing> landing =
       model::land(left.ball, target, config_.ball.dragPerMetre(), config_.arm.gravity);
   if (!landing)
     return {};
-  return ReleasePrediction{t_command, t_command + left.time, roll, left.ball, *landing};
+  return ReleasePrediction{t_command, t_command + left.time, wrist, left.ball, *landing};
+}
+
+std::optional<ReleasePrediction> ReleasePredictor::predict(const WholeMotion& motion,
+                                                           const model::Target& target,
+                                                           double t_command) const {
+  return predict(motion, wristAngles(motion), target, t_command);
 }
 
 double ReleasePredictor::commandTime(const WholeMotion& motion) const {
-  const Eigen::Vector3d& p_TBall = config_.hand.p_HBall;
+  const WristAngles wrist = wristAngles(motion);
+  const Eigen::Isometry3d X_TH = hand_.X_TH(wrist.roll, wrist.flexion);
+  const Eigen::Vector3d p_TBall = X_TH * config_.hand.p_HBall;
+  const Eigen::Vector3d y_TH = X_TH.linear().col(1);
   const Eigen::Vector3d g_W(0, 0, -config_.arm.gravity);
-  const Eigen::Vector3d y_TH = hand_.X_TH(wristRoll(motion), 0).linear() * Eigen::Vector3d::UnitY();
   // From the end backwards: the hand must stay slower than the ball afterwards.
   double t = motion.t_zero + kLatest;
   while (t > motion.t_zero + kEarliest) {
@@ -76,13 +85,14 @@ double ReleasePredictor::commandTime(const WholeMotion& motion) const {
 }
 
 double ReleasePredictor::residualAcceleration(const model::SampledTrajectory& trajectory,
+                                              const WristAngles& wrist,
                                               double from,
                                               double to) const {
   constexpr int kSteps = 10;
+  const Eigen::Vector3d p_TBall = hand_.X_TH(wrist.roll, wrist.flexion) * config_.hand.p_HBall;
   double largest = 0;
   for (int k = 0; k <= kSteps; ++k) {
     const model::ArmMotion motion = trajectory.at(from + (to - from) * k / kSteps);
-    const Eigen::Vector3d& p_TBall = config_.hand.p_HBall;
     const Eigen::Vector3d v_W = arm_.pointJacobian(motion.q, p_TBall) * motion.qd;
     const Eigen::Vector3d a_W = arm_.pointAcceleration(motion.q, motion.qd, motion.qdd, p_TBall);
     const Eigen::Vector3d free =

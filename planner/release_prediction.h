@@ -7,6 +7,7 @@
 #include "model/hand.h"
 #include "model/release.h"
 #include "planner/config.h"
+#include "planner/hand_motion.h"
 #include "planner/whole_motion.h"
 
 namespace fastball::planner {
@@ -24,8 +25,8 @@ PredictDeparture instantDeparture(const PlannerConfig& config);
 struct ReleasePrediction {
   double t_command = 0;    ///< [s], time of the motion
   double t_departure = 0;  ///< [s], time of the motion
-  double wrist_roll = 0;   ///< [rad]
-  model::BallState ball;   ///< at the departure
+  WristAngles wrist;
+  model::BallState ball;  ///< at the departure
   model::Landing landing;
 };
 
@@ -36,17 +37,23 @@ class ReleasePredictor {
 
   /// The throw when the hand is told to let go at t_command; nothing if the ball does not leave or does not reach the plane.
   std::optional<ReleasePrediction> predict(const WholeMotion& motion,
+                                           const WristAngles& wrist,
+                                           const model::Target& target,
+                                           double t_command) const;
+  /// The same with the wrist so that Eq. (25) holds at the swing's t = 0.
+  std::optional<ReleasePrediction> predict(const WholeMotion& motion,
                                            const model::Target& target,
                                            double t_command) const;
   /// The whole millisecond at which to let go: the thumb begins to move when Eq. (24) comes true near the swing's t = 0.
   double commandTime(const WholeMotion& motion) const;
   /// Largest |hand acceleration - free ball acceleration| [m/s^2] between two times.
   double residualAcceleration(const model::SampledTrajectory& trajectory,
+                              const WristAngles& wrist,
                               double from,
                               double to) const;
 
  private:
-  double wristRoll(const WholeMotion& motion) const;
+  WristAngles wristAngles(const WholeMotion& motion) const;
 
   const PlannerConfig& config_;
   const model::Arm& arm_;

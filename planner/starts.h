@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/swing_curve.h"
+#include "planner/swing_task.h"
 
 namespace fastball::planner {
 
@@ -14,7 +15,10 @@ struct Start {
   int elbow_sign;
 };
 
-/// The stored starts for a target at `azimuth` [rad] from the x axis, and `random` more around them, drawn from `seed`.
-std::vector<Start> swingStarts(double azimuth, int random, int64_t seed);
+/// The stored starts for a target at `azimuth` [rad] from the x axis.
+std::vector<Start> storedStarts(Shoulder shoulder, double azimuth);
+
+/// `count` starts about the stored ones, drawn from `seed`.
+std::vector<Start> randomStarts(Shoulder shoulder, double azimuth, int count, int64_t seed);
 
 }  // namespace fastball::planner

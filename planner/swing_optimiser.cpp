@@ -1,171 +1,195 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlopt.hpp>
 #include <vector>
 
+#include "planner/scaled_swing.h"
 #include "planner/swing_problem.h"
 
 namespace fastball::planner {
 namespace {
 
-constexpr double kStep = 1e-7;  // of the forward differences, relative to the variable's scale
+// Of the constraints, as SwingProblem states them.
+constexpr double kTolerance = 1e-5;
+// [m^2/s^2], of the objective: about 1e-5 m/s.
+constexpr double kSettled = 5e-6;
+// A search that has had so many looks is given up if it is slower than a known solution by more than the handicap [m/s], and after
+// twice as many if it still breaks a constraint by so much.
+constexpr int kFairChance = 30;
+constexpr double kHandicap = 0.4, kHopeless = 0.03;
+// SLSQP creeps where the constraints are much more curved than the speed. A search ends that has not won so much [m/s] in so many
+// looks while it kept the constraints to within `kNearly`.
+constexpr int kPatience = 25;
+constexpr double kGain = 0.003, kNearly = 2e-3;
+// A small violation [of the constraints] that is left is then repaired with so many evaluations.
+constexpr double kRepairable = 0.05;
+constexpr int kRepair = 12;
 
-/// Typical size of each variable: the optimiser works with x / scale.
-const SwingVector& scales() {
-  static const SwingVector scale = [] {
-    SwingVector s;
-    s << 0.5, 3, 0.5, 0.5, 0.5, 5, 0.02, 0.5, 0.5, 3, 0.5, 0.5, 0.5, 0.5;
-    return s;
-  }();
-  return scale;
-}
-
-/// The problem at the last point asked about: NLopt asks for objective and constraints one after another.
-class Cache {
+/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, or the distance from given variables.
+class Objective {
  public:
-  explicit Cache(const SwingProblem& problem) : problem_(problem) {}
+  Objective(ScaledSwing& swing, double to_beat) : swing_(swing), to_beat_(to_beat) {}
+  Objective(ScaledSwing& swing, const std::vector<double>& near) : swing_(swing), near_(&near) {}
 
-  const SwingProblem::Values& values(const double* u) {
-    lookAt(u);
-    return values_;
-  }
-  void needGradient(const double* u) {
-    lookAt(u);
-    if (has_gradient_)
-      return;
-    has_gradient_ = true;
-    ++evaluations_;
-    const SwingVector x = u_.cwiseProduct(scales());
-    for (int i = 0; i < kSwingVariables; ++i) {
-      SwingVector shifted = x;
-      shifted[i] += kStep * scales()[i];
-      const SwingProblem::Values moved = problem_.evaluate(shifted);
-      speed_gradient_[i] = (moved.release_speed - values_.release_speed) / kStep;
-      inequality_gradient_.col(i) = (moved.inequalities - values_.inequalities) / kStep;
-      equality_gradient_.col(i) = (moved.equalities - values_.equalities) / kStep;
+  double value(const double* u, double* gradient) {
+    const double speed = look(u).release_speed;
+    const int n = static_cast<int>(swing_.size());
+    Eigen::RowVectorXd slope;
+    double result = -0.05 * speed * speed;
+    if (near_ != nullptr) {
+      slope = Eigen::RowVectorXd::Map(u, n) - Eigen::RowVectorXd::Map(near_->data(), n);
+      result = 0.5 * slope.squaredNorm();
+    } else if (gradient != nullptr) {
+      slope = -0.1 * speed * swing_.gradients(u).release_speed;
     }
+    if (gradient != nullptr)
+      Eigen::RowVectorXd::Map(gradient, n) = slope;
+    return result;
   }
-  const SwingVector& speedGradient() const { return speed_gradient_; }
-  const auto& inequalityGradient() const { return inequality_gradient_; }
-  const auto& equalityGradient() const { return equality_gradient_; }
-  int evaluations() const { return evaluations_; }
+
+  /// The best point looked at: the fastest that keeps the constraints, else the one that breaks them least. A search that is ended or
+  /// gives up may leave off elsewhere.
+  const std::vector<double>& best() const { return best_; }
+  double bestViolation() const { return best_violation_; }
 
  private:
-  void lookAt(const double* u) {
-    const SwingVector point = Eigen::Map<const SwingVector>(u);
-    if (known_ && point == u_)
+  /// NLopt asks here first about every point. Ends the search where it leads nowhere.
+  const ScaledSwing::Values& look(const double* u) {
+    const ScaledSwing::Values& values = swing_.values(u);
+    ++looks_;
+    remember(u, values);
+    // With what is no number SLSQP would go on for ever.
+    if (!values.finite)
+      throw nlopt::forced_stop();
+    if (near_ == nullptr && (creeps(values) || isBeaten(values)))
+      throw nlopt::forced_stop();
+    return values;
+  }
+  void remember(const double* u, const ScaledSwing::Values& values) {
+    const double violation = std::max(values.violation(), kTolerance);
+    const bool better = near_ == nullptr && violation <= kTolerance && best_violation_ <= kTolerance
+                            ? values.release_speed > best_speed_
+                            : violation < best_violation_;
+    if (!better)
       return;
-    known_ = true;
-    has_gradient_ = false;
-    u_ = point;
-    values_ = problem_.evaluate(u_.cwiseProduct(scales()));
+    best_.assign(u, u + swing_.size());
+    best_violation_ = violation;
+    best_speed_ = values.release_speed;
+  }
+  bool creeps(const ScaledSwing::Values& values) {
+    if (values.violation() < kNearly && values.release_speed > won_ + kGain) {
+      won_ = values.release_speed;
+      won_at_ = looks_;
+    }
+    return won_ > 0 && looks_ > won_at_ + kPatience;
+  }
+  bool isBeaten(const ScaledSwing::Values& values) const {
+    if (to_beat_ == 0 || looks_ < kFairChance)
+      return false;
+    return values.release_speed < to_beat_ - kHandicap ||
+           (looks_ > 2 * kFairChance && values.violation() > kHopeless);
   }
 
-  const SwingProblem& problem_;
-  bool known_ = false, has_gradient_ = false;
-  int evaluations_ = 0;
-  SwingVector u_;
-  SwingProblem::Values values_;
-  SwingVector speed_gradient_;
-  Eigen::Matrix<double, SwingProblem::kInequalities, kSwingVariables, Eigen::RowMajor>
-      inequality_gradient_;
-  Eigen::Matrix<double, SwingProblem::kEqualities, kSwingVariables, Eigen::RowMajor>
-      equality_gradient_;
-};
-
-/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, or the distance from given parameters.
-struct Objective {
-  Cache* cache;
-  const SwingVector* near;  ///< scaled; null: Eq. (15)
+  ScaledSwing& swing_;
+  const std::vector<double>* near_ = nullptr;  ///< null: Eq. (15)
+  double to_beat_ = 0;                         ///< [m/s]; 0: none
+  int looks_ = 0;
+  std::vector<double> best_;
+  double best_violation_ = std::numeric_limits<double>::infinity(), best_speed_ = 0;
+  double won_ = 0;  ///< [m/s], the speed when it last rose by the gain
+  int won_at_ = 0;
 };
 
 double objective(unsigned, const double* u, double* gradient, void* data) {
-  const Objective& wanted = *static_cast<Objective*>(data);
-  if (wanted.near != nullptr) {
-    const SwingVector step = Eigen::Map<const SwingVector>(u) - *wanted.near;
-    if (gradient != nullptr)
-      std::copy_n(step.data(), step.size(), gradient);
-    return 0.5 * step.squaredNorm();
-  }
-  const double speed = wanted.cache->values(u).release_speed;
-  if (gradient != nullptr) {
-    wanted.cache->needGradient(u);
-    const SwingVector slope = -0.1 * speed * wanted.cache->speedGradient();
-    std::copy_n(slope.data(), slope.size(), gradient);
-  }
-  return -0.05 * speed * speed;
+  return static_cast<Objective*>(data)->value(u, gradient);
 }
 
-void inequalities(unsigned, double* c, unsigned, const double* u, double* gradient, void* data) {
-  Cache& cache = *static_cast<Cache*>(data);
-  std::copy_n(cache.values(u).inequalities.data(), SwingProblem::kInequalities, c);
-  if (gradient == nullptr)
-    return;
-  cache.needGradient(u);
-  std::copy_n(cache.inequalityGradient().data(), cache.inequalityGradient().size(), gradient);
+void inequalities(unsigned m,
+                  double* c,
+                  unsigned n,
+                  const double* u,
+                  double* gradient,
+                  void* data) {
+  ScaledSwing& swing = *static_cast<ScaledSwing*>(data);
+  Eigen::Map<Eigen::VectorXd>(c, m) = swing.values(u).inequalities;
+  if (gradient != nullptr)
+    Eigen::Map<ScaledSwing::Matrix>(gradient, m, n) = swing.gradients(u).inequalities;
 }
 
-void equalities(unsigned count,
-                double* c,
-                unsigned,
-                const double* u,
-                double* gradient,
-                void* data) {
-  Cache& cache = *static_cast<Cache*>(data);
-  std::copy_n(cache.values(u).equalities.data(), count, c);
-  if (gradient == nullptr)
-    return;
-  cache.needGradient(u);
-  std::copy_n(cache.equalityGradient().data(), count * kSwingVariables, gradient);
+void equalities(unsigned m, double* c, unsigned n, const double* u, double* gradient, void* data) {
+  ScaledSwing& swing = *static_cast<ScaledSwing*>(data);
+  Eigen::Map<Eigen::VectorXd>(c, m) = swing.values(u).equalities;
+  if (gradient != nullptr)
+    Eigen::Map<ScaledSwing::Matrix>(gradient, m, n) = swing.gradients(u).equalities;
 }
 
-/// SLSQP on the scaled variables u, in place.
-void minimise(const SwingProblem& problem, Objective& wanted, int max_evaluations, SwingVector& u) {
-  nlopt::opt optimiser(nlopt::LD_SLSQP, kSwingVariables);
-  std::vector<double> low(kSwingVariables), high(kSwingVariables), point(kSwingVariables);
-  for (int i = 0; i < kSwingVariables; ++i) {
-    low[i] = problem.lower()[i] / scales()[i];
-    high[i] = problem.upper()[i] / scales()[i];
-    point[i] = std::clamp(u[i], low[i], high[i]);
-  }
+/// SLSQP from u, in place.
+void minimise(ScaledSwing& swing, Objective& wanted, int max_evaluations, std::vector<double>& u) {
+  nlopt::opt optimiser(nlopt::LD_SLSQP, swing.size());
+  const std::vector<double> low = swing.lower(), high = swing.upper();
+  for (unsigned i = 0; i < swing.size(); ++i)
+    u[i] = std::clamp(u[i], low[i], high[i]);
   optimiser.set_lower_bounds(low);
   optimiser.set_upper_bounds(high);
   optimiser.set_min_objective(objective, &wanted);
-  optimiser.add_inequality_mconstraint(inequalities, wanted.cache,
-                                       std::vector<double>(SwingProblem::kInequalities, 1e-6));
-  optimiser.add_equality_mconstraint(equalities, wanted.cache,
-                                     std::vector<double>(problem.equalityCount(), 1e-7));
+  optimiser.add_inequality_mconstraint(inequalities, &swing,
+                                       std::vector<double>(swing.inequalityCount(), kTolerance));
+  if (swing.equalityCount() > 0) {
+    optimiser.add_equality_mconstraint(equalities, &swing,
+                                       std::vector<double>(swing.equalityCount(), kTolerance));
+  }
   optimiser.set_maxeval(max_evaluations);
-  optimiser.set_ftol_abs(1e-6);
+  optimiser.set_ftol_abs(kSettled);
   double value = 0;
   try {
-    optimiser.optimize(point, value);
-  } catch (const nlopt::roundoff_limited&) {
-    // `point` is the best so far; the caller looks at its violation.
-  } catch (const std::runtime_error&) {
-    // Likewise: SLSQP gives up on inconsistent constraints with a generic failure.
+    optimiser.optimize(u, value);
+  } catch (const std::exception&) {
+    // SLSQP gives up on rounding, on inconsistent constraints and on what is no number. u is the best so far; the caller looks at
+    // its violation.
   }
-  u = Eigen::Map<const SwingVector>(point.data());
 }
 
-SwingSolution solve(const SwingTask& task,
-                    const SwingVector& start,
-                    int elbow_sign,
-                    bool nearest,
-                    int max_evaluations) {
-  const SwingProblem problem(task, elbow_sign);
-  Cache cache(problem);
-  SwingVector u = start.cwiseQuotient(scales());
-  const SwingVector near = u;
-  Objective wanted{&cache, nearest ? &near : nullptr};
-  minimise(problem, wanted, max_evaluations, u);
+/// The nearest u that keeps the constraints, in place.
+void repair(ScaledSwing& swing, int max_evaluations, std::vector<double>& u) {
+  const std::vector<double> near = u;
+  Objective wanted(swing, near);
+  minimise(swing, wanted, max_evaluations, u);
+}
+
+/// The fastest u, in place.
+void maximiseSpeed(ScaledSwing& swing,
+                   int max_evaluations,
+                   double to_beat,
+                   std::vector<double>& u) {
+  Objective wanted(swing, to_beat);
+  minimise(swing, wanted, max_evaluations, u);
+  if (!wanted.best().empty() && !(swing.values(u.data()).violation() <= wanted.bestViolation()))
+    u = wanted.best();
+  const double violation = swing.values(u.data()).violation();
+  if (violation > kTolerance && violation < kRepairable)
+    repair(swing, kRepair, u);
+}
+
+SwingSolution solutionAt(const SwingProblem& problem,
+                         const ScaledSwing& swing,
+                         const std::vector<double>& u) {
   SwingSolution solution;
-  solution.x = u.cwiseProduct(scales());
-  solution.elbow_sign = elbow_sign;
+  solution.x = swing.parameters(u.data());
+  solution.elbow_sign = problem.elbowSign();
   const SwingProblem::Values values = problem.evaluate(solution.x);
   solution.release_speed = values.release_speed;
   solution.violation = values.violation();
-  solution.evaluations = cache.evaluations();
+  solution.evaluations = swing.evaluations();
   return solution;
+}
+
+bool isFinite(const std::vector<double>& u) {
+  return std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+}
+
+SwingSolution unsolved(const SwingVector& start, int elbow_sign) {
+  return {start, elbow_sign, 0, std::numeric_limits<double>::infinity(), 0};
 }
 
 }  // namespace
@@ -173,12 +197,25 @@ SwingSolution solve(const SwingTask& task,
 SwingSolution optimiseSwing(const SwingTask& task,
                             const SwingVector& start,
                             int elbow_sign,
-                            int max_evaluations) {
-  return solve(task, start, elbow_sign, false, max_evaluations);
+                            int max_evaluations,
+                            double to_beat) {
+  const SwingProblem problem(task, elbow_sign);
+  ScaledSwing swing(problem, start);
+  std::vector<double> u = swing.start();
+  if (!isFinite(u))
+    return unsolved(start, elbow_sign);
+  maximiseSpeed(swing, max_evaluations, to_beat, u);
+  return solutionAt(problem, swing, u);
 }
 
 SwingSolution correctSwing(const SwingTask& task, const SwingSolution& near, int max_evaluations) {
-  return solve(task, near.x, near.elbow_sign, true, max_evaluations);
+  const SwingProblem problem(task, near.elbow_sign);
+  ScaledSwing swing(problem, near.x);
+  std::vector<double> u = swing.start();
+  if (!isFinite(u))
+    return unsolved(near.x, near.elbow_sign);
+  repair(swing, max_evaluations, u);
+  return solutionAt(problem, swing, u);
 }
 
 }  // namespace fastball::planner

@@ -2,74 +2,98 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
-#include "model/arm.h"
-#include "model/ball_parameters.h"
-#include "model/target.h"
-#include "planner/follow_through.h"
+#include "planner/release_conditions.h"
 #include "planner/swing_curve.h"
+#include "planner/swing_limits.h"
+#include "planner/swing_task.h"
 
 namespace fastball::planner {
 
-/// How a swing is bounded besides by the arm's own limits.
-struct SwingSettings {
-  Eigen::Vector3d omega_max =
-      Eigen::Vector3d::Zero();  ///< [rad/s, 1/s, rad/s], of the base functions
-  double elbow_margin =
-      0;  ///< [rad], |J4| at least, in the swing: the map from the swing model is singular at 0
-  double body_clearance =
-      0;  ///< [m], ball centre from the axis of the column that carries the shoulder, at least
-  double lowest_ball = 0;  ///< [m], world z of the ball centre, at least
-  double wrist_limit = 0;  ///< [rad], |roll| of the wrist at most
-  FollowThrough follow;
-};
-
-/// One throw to be optimised by Eq. (15).
-struct SwingTask {
-  const model::Arm* arm = nullptr;
-  model::BallParameters ball;
-  model::Target target;
-  Eigen::Vector2d aim = Eigen::Vector2d::Zero();      ///< [m], plane coordinates of the landing
-  Eigen::Vector3d p_TBall = Eigen::Vector3d::Zero();  ///< [m], ball centre in the grasp
-  SwingSettings settings;
-  double limit_factor = 1;  ///< the share of speed and torque limits that may be used
-  bool must_land = true;    ///< false: fastest throw of all, wherever it goes
-};
-
 /// What Eq. (15) asks of parameters x. Inequalities hold where <= 0, equalities where 0.
+///
+/// The swing's limits hold at every time, not only at samples: a constraint is the highest point of one limit in one window of time.
+/// It is found on a grid and between the grid's points by parabolas. Because nothing in the motion has a kink, the derivative of such
+/// a peak by x is that of the limit at the peak's time.
 class SwingProblem {
  public:
-  static constexpr int kEarlySamples = 22, kLateSamples = 26, kBrakeSamples = 8;
-  static constexpr int kSwingSamples = kEarlySamples + kLateSamples;
-  static constexpr int kPerSample = 11;
-  static constexpr int kInequalities = kPerSample * (kSwingSamples + kBrakeSamples) + 2;
-  static constexpr int kEqualities = 4;
+  static constexpr int kEqualities = ReleaseConditions::kEqualities;
+  /// The highest point of one limit in one window.
+  struct Peak {
+    double value = -1;
+    double time = 0;     ///< [s], from the release
+    double q3_near = 0;  ///< [rad], to find the motion again
+  };
   struct Values {
     double release_speed = 0;  ///< [m/s]
-    Eigen::Matrix<double, kInequalities, 1> inequalities;
-    /// Ball velocity along the forearm [m/s] (Eq. 25); ball at the flight time minus the point aimed at [m].
+    /// Peaks in the order of rows(), then Eq. (24), then how much of the wrist's range is exceeded.
+    Eigen::VectorXd inequalities;
     Eigen::Matrix<double, kEqualities, 1> equalities;
+    std::vector<Peak> peaks;
+    double q3_brake = 0;  ///< [rad], where the follow-through begins
     /// Largest violation of any constraint; infinite if one is not finite.
     double violation() const;
   };
+  struct Gradients {
+    SwingVector release_speed = SwingVector::Zero();
+    Eigen::Matrix<double, Eigen::Dynamic, kSwingVariables, Eigen::RowMajor> inequalities;
+    Eigen::Matrix<double, kEqualities, kSwingVariables, Eigen::RowMajor> equalities;
+  };
+  /// One limit in one window.
+  struct Row {
+    SwingLimit limit;
+    int window;
+  };
 
   SwingProblem(const SwingTask& task, int elbow_sign);
+  SwingProblem(const SwingProblem&) = delete;
+  SwingProblem& operator=(const SwingProblem&) = delete;
+
   Values evaluate(const SwingVector& x) const;
+  /// @param values what evaluate(x) gave.
+  Gradients gradients(const SwingVector& x, const Values& values) const;
   /// The constraint that x violates most, in words ("breaks the range of joint 3 (by 0.1 of it)").
   std::string worstConstraint(const SwingVector& x) const;
+  /// Whether a variable is one at all.
+  bool isFree(int variable) const {
+    return lower_[variable] < upper_[variable] && !task_.fixed[variable];
+  }
   const SwingVector& lower() const { return lower_; }
   const SwingVector& upper() const { return upper_; }
   const SwingTask& task() const { return task_; }
   int elbowSign() const { return elbow_sign_; }
-  /// How many of the equalities hold for the task: without a landing only the first.
-  int equalityCount() const { return task_.must_land ? kEqualities : 1; }
+  const std::vector<Row>& rows() const { return rows_; }
+  /// Times [s] from the release at which the limits are evaluated before the peaks are looked for.
+  const std::vector<double>& grid() const { return grid_; }
+  int inequalityCount() const { return static_cast<int>(rows_.size()) + 2; }
+  /// How many of the equalities hold for the task.
+  int equalityCount() const {
+    return task_.must_land ? kEqualities : ReleaseConditions::kDirectionEqualities;
+  }
 
  private:
-  void atSample(const model::ArmMotion& motion, bool swinging, double* c) const;
-  void atRelease(const SwingVector& x, const model::ArmMotion& motion, Values& values) const;
+  /// Part of the swing or of the follow-through, with the grid points in it, both ends included.
+  struct Window {
+    int first, last;
+  };
+  class Motion;
+  void addWindow(double end, double step);
+  void setBounds();
+  bool braking(const Window& window) const {
+    return grid_[window.first] >= task_.settings.follow.delay;
+  }
+  Peak peak(const Row& row, const Motion& motion) const;
+  double rollLimit() const;
+
   SwingTask task_;
   int elbow_sign_;
+  SwingLimits limits_;
+  ReleaseConditions release_;
   SwingVector lower_, upper_;
+  std::vector<double> grid_;  ///< [s] from the release
+  std::vector<Window> windows_;
+  std::vector<Row> rows_;
 };
 
 /// A solved swing.
@@ -81,11 +105,13 @@ struct SwingSolution {
   int evaluations = 0;
 };
 
-/// NLopt's SLSQP from `start`, at most `max_evaluations` evaluations of the problem with gradient.
+/// NLopt's SLSQP from `start`, at most `max_evaluations` evaluations of the problem.
+/// @param to_beat [m/s], of a solution already known: the search is given up when it does not look like becoming faster.
 SwingSolution optimiseSwing(const SwingTask& task,
                             const SwingVector& start,
                             int elbow_sign,
-                            int max_evaluations);
+                            int max_evaluations,
+                            double to_beat = 0);
 
 /// The solution of `task` that lies nearest to `near` (in variables over their scales) instead of the fastest: for a task
 /// that differs little from the one that `near` solves.

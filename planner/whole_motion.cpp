@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "planner/polynomial.h"
 
@@ -31,37 +32,37 @@ double approachTime(const model::Arm& arm,
 
 WholeMotion wholeMotion(const model::Arm& arm,
                         const MotionSettings& settings,
-                        const FollowThrough& follow,
                         const Eigen::Vector4d& q_arm,
-                        const SwingCurve& swing) {
+                        const SwingMotion& swing) {
   WholeMotion motion;
-  const model::ArmMotion ready = swing.at(swing.begin());
+  const model::ArmMotion ready = swing.at(swing.begin);
   motion.t_ready = approachTime(arm, settings, q_arm, ready.q);
-  const double brake = follow.brake_time.maxCoeff();
-  const double least = motion.t_ready + settings.ready_time - swing.begin() + follow.delay + brake;
+  const double brake = swing.brake_time.maxCoeff();
+  const double least = motion.t_ready + settings.ready_time - swing.begin + swing.end + brake;
   // Whole milliseconds; the release falls on a sample.
   const double sample_ms = std::max(std::round(1e3 * settings.sample_time),
                                     std::ceil(1e3 * least / (settings.max_samples - 3)));
   const double dt = 1e-3 * sample_ms;
   const auto sampleAtOrAfter = [dt](double t) { return std::ceil(t / dt - 1e-9); };
-  const double zero_sample = sampleAtOrAfter(motion.t_ready + settings.ready_time - swing.begin());
+  const double zero_sample = sampleAtOrAfter(motion.t_ready + settings.ready_time - swing.begin);
   motion.t_zero = 1e-3 * sample_ms * zero_sample;
-  motion.t_swing = motion.t_zero + swing.begin();
-  motion.t_swing_end = motion.t_zero + follow.delay;
+  motion.t_swing = motion.t_zero + swing.begin;
+  motion.t_swing_end = motion.t_zero + swing.end;
   const int last = static_cast<int>(sampleAtOrAfter(motion.t_swing_end + brake));
 
   std::vector<model::ArmMotion> samples(last + 1);
-  double q3_near = ready.q[2];
+  const FollowThrough follow{swing.end, swing.brake_time};
+  std::optional<model::ArmMotion> braking;
   for (int k = 0; k <= last; ++k) {
     const double t = k * dt;
     if (t <= motion.t_swing) {
       samples[k] = approach(q_arm, ready.q, motion.t_ready, t);
     } else if (t <= motion.t_swing_end) {
-      samples[k] = swing.at(t - motion.t_zero, q3_near);
-      q3_near = samples[k].q[2];
+      samples[k] = swing.at(t - motion.t_zero);
     } else {
-      const model::ArmMotion from = swing.at(follow.delay, q3_near);
-      samples[k] = follow.braked(from, t - motion.t_swing_end);
+      if (!braking)
+        braking = swing.at(swing.end);
+      samples[k] = follow.braked(*braking, t - motion.t_swing_end);
     }
   }
   samples.front() = {q_arm, Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
@@ -69,6 +70,21 @@ WholeMotion wholeMotion(const model::Arm& arm,
   samples.back().qdd.setZero();
   motion.trajectory = model::SampledTrajectory(dt, std::move(samples));
   return motion;
+}
+
+WholeMotion wholeMotion(const model::Arm& arm,
+                        const MotionSettings& settings,
+                        const FollowThrough& follow,
+                        const Eigen::Vector4d& q_arm,
+                        const SwingCurve& swing) {
+  // Joint 3 is known but for whole turns: it goes on from the last time asked for.
+  double q3_near = swing.at(swing.begin()).q[2];
+  const auto at = [&](double t) {
+    const model::ArmMotion motion = swing.at(t, q3_near);
+    q3_near = motion.q[2];
+    return motion;
+  };
+  return wholeMotion(arm, settings, q_arm, {swing.begin(), follow.delay, follow.brake_time, at});
 }
 
 }  // namespace fastball::planner

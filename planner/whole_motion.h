@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "model/arm.h"
 #include "model/trajectory.h"
 #include "planner/follow_through.h"
@@ -22,7 +24,22 @@ struct WholeMotion {
   double t_zero = 0;                                 ///< [s], time of the swing's t = 0, a sample
 };
 
-/// Approach from q_arm (quintic), rest, swing, follow-through.
+/// A swing from rest to where braking begins. t = 0 is a sample of the whole motion.
+struct SwingMotion {
+  double begin = 0;  ///< [s], negative; at rest before
+  double end = 0;    ///< [s]
+  Eigen::Vector4d brake_time =
+      Eigen::Vector4d::Zero();  ///< [s], then each joint comes to rest in this time
+  std::function<model::ArmMotion(double t)> at;  ///< asked for in order of time
+};
+
+/// Approach from q_arm (quintic), rest, swing, braking.
+WholeMotion wholeMotion(const model::Arm& arm,
+                        const MotionSettings& settings,
+                        const Eigen::Vector4d& q_arm,
+                        const SwingMotion& swing);
+
+/// The same for a swing by base functions.
 WholeMotion wholeMotion(const model::Arm& arm,
                         const MotionSettings& settings,
                         const FollowThrough& follow,

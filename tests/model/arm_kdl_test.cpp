@@ -1,41 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 
+#include "bench/kdl_arm.h"
 #include "tests/model/arm_states.h"
 
 // The arm against an independent library: Orocos KDL, with the payload as a body of its own.
 namespace fastball::model {
 namespace {
 
-KDL::RigidBodyInertia toKdl(const RigidBody& body) {
-  const Eigen::Matrix3d& I = body.I_BCom;
-  return KDL::RigidBodyInertia(
-      body.mass, KDL::Vector(body.p_BCom.x(), body.p_BCom.y(), body.p_BCom.z()),
-      KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)));
-}
-
-KDL::Chain kdlArm(const ArmParameters& parameters, const RigidBody& payload) {
-  KDL::Chain chain;
-  for (int i = 0; i < kArmJoints; ++i) {
-    const DhRow& row = parameters.dh[i];
-    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ, 1, 0, parameters.drive_inertia[i]),
-                                  KDL::Frame::DH(row.a, row.alpha, row.d, 0),
-                                  toKdl(parameters.links[i])));
-  }
-  const KDL::Frame tool(KDL::Vector(0, 0, parameters.tool_plate_distance));
-  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), tool, toKdl(payload)));
-  return chain;
-}
-
-KDL::JntArray toKdl(const Vector4& value) {
-  KDL::JntArray array(kArmJoints);
-  array.data = value;
-  return array;
-}
+using bench::kdlArm;
+using bench::toKdl;
 
 class ArmAgainstKdl : public testing::Test {
  protected:

@@ -86,6 +86,28 @@ TEST_F(BallFlight, StepsAreFineEnough) {
   }
 }
 
+TEST_F(BallFlight, HasItsDerivativesByTheVelocity) {
+  constexpr double kStep = 1e-5;
+  for (int i = 0; i < 50; ++i) {
+    BallState start = thrown();
+    if (i == 0)
+      start.v_WBall.setZero();
+    const double t = i == 1 ? 0 : uniform(1e-6, 1.5);
+    const FlightDerivatives d = flyWithDerivatives(start, t, drag_, kGravity);
+    const BallState end = fly(start, t, drag_, kGravity);
+    EXPECT_LT((d.state.p_WBall - end.p_WBall).norm(), 1e-8);
+    EXPECT_LT((d.state.v_WBall - end.v_WBall).norm(), 1e-8);
+    for (int k = 0; k < 3; ++k) {
+      BallState high = start, low = start;
+      high.v_WBall[k] += kStep;
+      low.v_WBall[k] -= kStep;
+      const BallState a = fly(high, t, drag_, kGravity), b = fly(low, t, drag_, kGravity);
+      EXPECT_LT((d.dp_dv.col(k) - (a.p_WBall - b.p_WBall) / (2 * kStep)).norm(), 1e-6);
+      EXPECT_LT((d.dv_dv.col(k) - (a.v_WBall - b.v_WBall) / (2 * kStep)).norm(), 1e-6);
+    }
+  }
+}
+
 TEST_F(BallFlight, RunsBackwards) {
   const BallState start = thrown();
   const BallState back = fly(fly(start, 0.3, drag_, kGravity), -0.3, drag_, kGravity);
@@ -140,6 +162,27 @@ TEST_F(BallFlight, SeesATouchWithinOneStep) {
   EXPECT_NEAR(landing->time, 1 / kGravity - std::sqrt(2e-6 / kGravity), 1e-9);
   ceiling.p_WTarget = {0, 0, top + 1e-6};
   EXPECT_FALSE(land({{0, 0, 0}, {0, 0, 1}}, ceiling, 0, kGravity));
+}
+
+TEST(VelocityToReach, BallArrives) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-1, 1), duration(0.05, 1.5), drag(0, 0.1);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d from(coordinate(random), coordinate(random), coordinate(random));
+    const Eigen::Vector3d to = from + Eigen::Vector3d(3, coordinate(random), coordinate(random));
+    const double T = duration(random), k = drag(random);
+    const Eigen::Vector3d v = velocityToReach(from, to, T, k, 9.81);
+    EXPECT_LT((fly({from, v}, T, k, 9.81).p_WBall - to).norm(), 1e-4) << "T " << T << " k " << k;
+    // A guess changes the way to the answer only.
+    const Eigen::Vector3d again = velocityToReach(from, to, T, k, 9.81, v * 1.01);
+    EXPECT_LT((again - v).norm() * T, 1e-6);
+  }
+}
+
+TEST(VelocityToReach, WithoutDragItIsTheParabola) {
+  const Eigen::Vector3d v = velocityToReach({0, 0, 0}, {3, 0, -0.5}, 0.6, 0, 10);
+  EXPECT_NEAR(v.x(), 5, 1e-9);
+  EXPECT_NEAR(v.z(), -0.5 / 0.6 + 3, 1e-9);
 }
 
 }  // namespace

@@ -154,5 +154,81 @@ TEST_F(AnalogousSwing, StaysFiniteAtAndNearTheStraightElbow) {
   EXPECT_NEAR(wam.qd[3], 3, 1e-9);
 }
 
+/// The WAM's motion for the angles z = (q1, q2, q3, gamma) with their rates.
+struct MovingAngles {
+  Vector4 z, zd, zdd;
+
+  SwingAngles swing() const { return {z.head<3>(), zd.head<3>(), zdd.head<3>()}; }
+  BaseValue gamma() const { return {z[3], zd[3], zdd[3]}; }
+  WamMotion wam(int sign, double near) const { return wamFromSwing(swing(), gamma(), sign, near); }
+};
+
+TEST_F(AnalogousSwing, WithAMovingUpperArmHasVelocitiesAndAccelerations) {
+  const double h = 1e-6;
+  for (int i = 0; i < 200; ++i) {
+    const Vector4 z(uniform(-1, 1), uniform(-1.5, 1.5), uniform(-1.5, 1.5), uniform(-1.5, 1.5));
+    const Vector4 zd = 5 * Vector4::Random(), zdd = 50 * Vector4::Random();
+    const auto at = [&](double t) {
+      return MovingAngles{z + t * zd + t * t / 2 * zdd, zd + t * zdd, zdd}.wam(1, 0);
+    };
+    const WamMotion now = at(0);
+    if (now.q[3] < 0.05 || now.q[3] > 3.09)
+      continue;
+    EXPECT_EQ(now.qd[1], zd[3]);
+    EXPECT_LT((now.qd - (at(h).q - at(-h).q) / (2 * h)).norm(), 1e-5 * (1 + now.qd.norm()));
+    EXPECT_LT((now.qdd - (at(h).qd - at(-h).qd) / (2 * h)).norm(), 1e-5 * (1 + now.qdd.norm()));
+  }
+}
+
+TEST_F(AnalogousSwing, HasItsDerivativesToNearTheStraightElbow) {
+  for (const double bend : {1.0, 0.3, 0.03, 0.003}) {
+    for (int i = 0; i < 50; ++i) {
+      // The forearm stands off the upper arm by about the bend.
+      MovingAngles at;
+      at.z << uniform(-1, 1), bend * uniform(0.5, 1), bend * uniform(-1, 1), uniform(0.2, 1.5);
+      at.zd << 0, 5 * Eigen::Vector3d::Random();
+      at.zdd << 0, 50 * Eigen::Vector3d::Random();
+      const int sign = i % 2 == 0 ? 1 : -1;
+      const WamDerivatives d = wamDerivatives(at.swing(), at.gamma(), sign, 0);
+      const WamMotion same = at.wam(sign, 0);
+      EXPECT_EQ(d.motion.q, same.q);
+      EXPECT_EQ(d.motion.qdd, same.qdd);
+      for (int k = 0; k < 4; ++k) {
+        const auto difference = [&](Vector4 MovingAngles::*part) {
+          // Of second order in the rates: there any step is right.
+          const double step = part == &MovingAngles::z ? 1e-4 * std::abs(same.q[3]) : 1.0;
+          MovingAngles high = at, low = at;
+          (high.*part)[k] += step;
+          (low.*part)[k] -= step;
+          const WamMotion a = high.wam(sign, same.q[2]), b = low.wam(sign, same.q[2]);
+          return WamMotion{(a.q - b.q) / (2 * step), (a.qd - b.qd) / (2 * step),
+                           (a.qdd - b.qdd) / (2 * step)};
+        };
+        const WamMotion by_z = difference(&MovingAngles::z), by_zd = difference(&MovingAngles::zd),
+                        by_zdd = difference(&MovingAngles::zdd);
+        const auto near = [](const Vector4& value, const Vector4& expected) {
+          EXPECT_LT((value - expected).norm(), 1e-4 * (1 + expected.norm()));
+        };
+        near(d.F.col(k), by_z.q);
+        near(d.Fd.col(k), by_z.qd);
+        near(d.Fdd.col(k), by_z.qdd);
+        near(d.F.col(k), by_zd.qd);
+        near(2 * d.Fd.col(k), by_zd.qdd);
+        near(d.F.col(k), by_zdd.qdd);
+      }
+    }
+  }
+}
+
+TEST_F(AnalogousSwing, HasFiniteDerivativesInTheStraightElbow) {
+  for (const double offset : {0.0, 1e-300, 1e-15, 1e-9}) {
+    SwingAngles swing;
+    swing.q << 0.3, offset, 0;
+    swing.qd << 5, 3, 2;
+    const WamDerivatives d = wamDerivatives(swing, {0.7, 1, 0}, 1, 1.2);
+    EXPECT_TRUE(d.F.allFinite() && d.Fd.allFinite() && d.Fdd.allFinite()) << offset;
+  }
+}
+
 }  // namespace
 }  // namespace fastball::model

@@ -23,12 +23,13 @@ TEST(HandMotion, IsTheDerivativeOfThePose) {
   const model::Hand hand(example.config.hand);
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> number(-1, 1);
-  constexpr double kRoll = 0.7, kH = 1e-4;
+  constexpr double kH = 1e-4;
+  constexpr WristAngles kWrist{0.7, -0.3};
   for (int i = 0; i < 20; ++i) {
     std::array<Eigen::Vector4d, 4> c;
     for (auto& row : c)
       row = Eigen::Vector4d::NullaryExpr([&] { return 3 * number(engine); });
-    const auto at = [&](double t) { return handMotion(arm, hand, kRoll, motionAt(c, t)); };
+    const auto at = [&](double t) { return handMotion(arm, hand, kWrist, motionAt(c, t)); };
     const model::HandMotion before = at(-kH), now = at(0), after = at(kH);
     const auto derivative = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return Eigen::Vector3d((b - a) / (2 * kH));
@@ -52,13 +53,14 @@ TEST(ThrowDirection, TurnsTheHandAlongTheBallsPath) {
     model::ArmMotion motion;
     motion.q = Eigen::Vector4d::NullaryExpr([&] { return 1.5 * number(engine); });
     motion.qd = Eigen::Vector4d::NullaryExpr([&] { return 4 * number(engine); });
-    const Eigen::Vector3d& p_TBall = example.config.hand.p_HBall;
-    const ThrowDirection direction = throwDirection(arm, motion, p_TBall);
-    const model::HandMotion moving = handMotion(arm, hand, direction.wrist_roll, motion);
+    const ThrowDirection direction = throwDirection(arm, hand, motion);
+    const model::HandMotion moving = handMotion(arm, hand, direction.wrist, motion);
+    const Eigen::Vector3d arm_W = moving.X_WH.linear() * example.config.hand.p_HBall;
     const Eigen::Vector3d v_H =
-        moving.X_WH.linear().transpose() * (arm.pointJacobian(motion.q, p_TBall) * motion.qd);
+        moving.X_WH.linear().transpose() * (moving.v_WH + moving.w_WH.cross(arm_W));
     EXPECT_NEAR(v_H.x(), 0, 1e-9);
-    EXPECT_GE(v_H.y(), 0);
+    EXPECT_NEAR(v_H.z(), 0, 1e-9) << "Eq. (25)";
+    EXPECT_NEAR(v_H.y(), direction.speed, 1e-9);
     EXPECT_LT((moving.X_WH.linear().col(1) - direction.y_WH).norm(), 1e-9);
   }
 }

@@ -138,7 +138,7 @@ TEST(PlannerConfig, RefusesAShareAboveOne) {
   replace("arm: arm/", "arm: " + folder + "arm/");
   replace("hand: hand", "hand: " + folder + "hand");
   replace("ball: ball", "ball: " + folder + "ball");
-  replace("limit_share: 0.97", "limit_share: 1.5");
+  replace("limit_share: 0.998", "limit_share: 1.5");
   std::ofstream(path) << text;
   try {
     loadConfig(path);

@@ -51,6 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "/nonexistent/a.json"},
         WrongFlag{"bad_url", {"run", "--lcm-url", "carrier-pigeon://"}, "carrier-pigeon"},
         WrongFlag{"log_without_network", {"run", "--no-network", "--log", "a"}, "--log"},
+        WrongFlag{"unwritable_figures", {"figures", "-o", "/dev/null/a"}, "-o /dev/null/a"},
         WrongFlag{"bad_filter", {"bench", "--filter", "("}, "regular expression"}),
     [](const auto& test) { return test.param.name; });
 

@@ -1,0 +1,384 @@
+#include "planner/atlas_builder.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <thread>
+
+#include "planner/atlas_layer_builder.h"
+#include "planner/limit_check.h"
+#include "planner/swing_planner.h"
+#include "planner/window_planner.h"
+#include "planner/window_starts.h"
+
+namespace fastball::planner {
+namespace {
+
+// Evaluations from a stored start, and from the throw of a neighbour.
+constexpr int kFirstEvaluations = 150, kNextEvaluations = 40;
+// To make a throw better that is inside the limits.
+constexpr int kBetterEvaluations = 14;
+constexpr int kAimRounds = 5;
+constexpr double kAimed = 5e-4;  // [m]
+// What it costs to be unlike the neighbours, beside what the landing's errors cost.
+constexpr double kNearness = 0.01;
+// Of the planner's limits, used by a node, so that what is interpolated between nodes keeps them.
+constexpr double kNodeShare = 0.995;
+// The same for a node that is but a start.
+constexpr double kBeyondShare = 1.04;
+constexpr double kRingRadius = 0.1;  // [m], no throw depends on it
+constexpr double kSolved = 1e-4;     // violation of a swing's constraints
+
+/// What is the same for windows and swings.
+class PlannedThrows : public ThrowSource {
+ protected:
+  PlannedThrows(const PlannerConfig& config, const Eigen::Vector3d& facing)
+      : config_(config),
+        arm_(config.arm, config.hand.payload),
+        predictor_(config, arm_, elasticDeparture(config)),
+        facing_(facing) {}
+
+  ThrowRequest requestTo(const Eigen::Vector2d& place) const {
+    ThrowRequest request;
+    request.target = {{place[0], 0, place[1]}, facing_, kRingRadius};
+    return request;
+  }
+
+  /// By the departure of the throw or, if it is to be found, by a prediction of its own.
+  std::optional<ReleasePrediction> predict(const WholeMotion& motion,
+                                           const WristAngles& wrist,
+                                           const model::Target& target,
+                                           double t_command,
+                                           const HandDeparture* departure) const {
+    return departure != nullptr ? predictByDeparture(config_, arm_, *departure, motion, wrist,
+                                                     target, t_command)
+                                : predictor_.predict(motion, wrist, target, t_command);
+  }
+
+  /// Puts into `entry` what the prediction says.
+  void note(const WholeMotion& motion,
+            const ReleasePrediction& prediction,
+            const model::Target& target,
+            Eigen::Vector3d aim,
+            AtlasThrow& entry) const {
+    const Eigen::Vector2d& miss = prediction.landing.landing;
+    aim -= miss.x() * target.rightAxis() + miss.y() * target.upAxis();
+    entry.v_arrival = prediction.landing.state.v_WBall;
+    entry.aim = aim;
+    entry.departure = seenFromHand(config_, arm_, motion, prediction);
+    entry.q_ready = motion.trajectory.at(motion.t_swing).q;
+    entry.inside = checkLimits(arm_, motion.trajectory).violation ? 0 : 1;
+  }
+
+  const PlannerConfig& config_;
+  model::Arm arm_;
+  ReleasePredictor predictor_;
+  Eigen::Vector3d facing_;
+};
+
+class Windows : public PlannedThrows {
+ public:
+  Windows(const PlannerConfig& config, const WindowKind& window, int family, const Eigen::Vector3d& facing)
+      : PlannedThrows(config, facing),
+        planner_(config, arm_, predictor_),
+        window_(window),
+        family_(family) {}
+
+  ThrowKind kind() const override { return ThrowKind::kWindow; }
+
+  std::optional<AtlasThrow> first(const Eigen::Vector2d& place) const override {
+    AtlasThrow start;
+    start.x = toVector(windowStarts(0, window_.length)[family_]);
+    start.window = window_.length;
+    const auto solution = solveWindowThrow(problemFor(place, start.aim, kNodeShare),
+                                           fromVector(start.x, window_.length), kFirstEvaluations);
+    if (!solution.feasible)
+      return {};
+    start.x = toVector(solution.x);
+    const auto departed = entryOf(place, start, nullptr);
+    if (!departed)
+      return {};
+    return aimed(place, *departed, kNodeShare);
+  }
+
+  std::optional<AtlasThrow> next(const Eigen::Vector2d& place,
+                                 const AtlasThrow& near,
+                                 bool beyond) const override {
+    const double share = beyond ? kBeyondShare : kNodeShare;
+    const auto found = aimed(place, near, share);
+    if (!found)
+      return {};
+    const auto better = bettered(place, *found, near.x, share);
+    return better ? better : found;
+  }
+
+  std::optional<AtlasThrow> smoothed(const Eigen::Vector2d& place,
+                                     const AtlasThrow& own,
+                                     const AtlasVector& mean) const override {
+    return bettered(place, own, mean, own.inside > 0 ? kNodeShare : kBeyondShare);
+  }
+
+  std::optional<AtlasThrow> finished(const Eigen::Vector2d& place,
+                                     const AtlasThrow& found) const override {
+    const auto departed = entryOf(place, found, nullptr);
+    if (!departed)
+      return {};
+    const auto again = aimed(place, *departed, found.inside > 0 ? kNodeShare : kBeyondShare);
+    return again ? again : departed;
+  }
+
+ private:
+  WindowProblem problemFor(const Eigen::Vector2d& place,
+                           const Eigen::Vector3d& aim,
+                           double share) const {
+    WindowProblem problem =
+        planner_.problemFor(requestTo(place), {window_.length, share * window_.limit_share});
+    problem.task.p_WGoal += aim;
+    return problem;
+  }
+
+  /// `start` inside the limits and aimed right, its ball departing as it says.
+  std::optional<AtlasThrow> aimed(const Eigen::Vector2d& place, AtlasThrow start, double share) const {
+    for (int round = 0; round < kAimRounds; ++round) {
+      const WindowSolution solution =
+          correctWindowThrow(problemFor(place, start.aim, share),
+                             fromVector(start.x, window_.length), kNextEvaluations);
+      if (!solution.feasible)
+        return {};
+      start.x = toVector(solution.x);
+      start.cost = solution.cost;
+      const Eigen::Vector3d aim = start.aim;
+      const auto entry = entryOf(place, start, &start.departure);
+      if (!entry)
+        return {};
+      start = *entry;
+      if ((start.aim - aim).norm() < kAimed)
+        return start;
+    }
+    return {};
+  }
+
+  /// A throw whose landing errors move less, but not far from `near`.
+  std::optional<AtlasThrow> bettered(const Eigen::Vector2d& place,
+                                     AtlasThrow start,
+                                     const AtlasVector& near,
+                                     double share) const {
+    WindowProblem problem = problemFor(place, start.aim, share);
+    problem.near = near;
+    problem.nearness = kNearness;
+    const WindowSolution solution =
+        solveWindowThrow(problem, fromVector(start.x, window_.length), kBetterEvaluations);
+    if (!solution.feasible)
+      return {};
+    start.x = toVector(solution.x);
+    return aimed(place, start, share);
+  }
+
+  /// With the departure given, or its own.
+  std::optional<AtlasThrow> entryOf(const Eigen::Vector2d& place,
+                                    const AtlasThrow& found,
+                                    const HandDeparture* departure) const {
+    const model::Target target = requestTo(place).target;
+    const auto motion = planner_.motionOf(problemFor(place, found.aim, 1), {},
+                                          fromVector(found.x, window_.length));
+    if (!motion)
+      return {};
+    const auto prediction =
+        predict(*motion, planner_.wristOf(*motion), target, motion->t_zero, departure);
+    if (!prediction)
+      return {};
+    AtlasThrow entry = found;
+    note(*motion, *prediction, target, found.aim, entry);
+    return entry;
+  }
+
+  WindowPlanner planner_;
+  WindowKind window_;
+  int family_;
+};
+
+class Swings : public PlannedThrows {
+ public:
+  Swings(const PlannerConfig& config, Shoulder shoulder, int family, const Eigen::Vector3d& facing)
+      : PlannedThrows(config, facing),
+        planner_(config, arm_, predictor_),
+        shoulder_(shoulder),
+        family_(family) {}
+
+  ThrowKind kind() const override {
+    return shoulder_ == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing;
+  }
+
+  std::optional<AtlasThrow> first(const Eigen::Vector2d& place) const override {
+    const Start start = storedStarts(shoulder_, 0)[family_];
+    AtlasThrow near;
+    near.x = start.x;
+    near.elbow_sign = start.elbow_sign;
+    const auto ideal = solved(place, near, kNodeShare, true);
+    if (!ideal)
+      return {};
+    // Again with the departure known: the first shift of the aim is large.
+    return solved(place, *ideal, kNodeShare, true);
+  }
+
+  std::optional<AtlasThrow> next(const Eigen::Vector2d& place,
+                                 const AtlasThrow& near,
+                                 bool beyond) const override {
+    return solved(place, near, beyond ? kBeyondShare : kNodeShare, true);
+  }
+
+  std::optional<AtlasThrow> smoothed(const Eigen::Vector2d&,
+                                     const AtlasThrow&,
+                                     const AtlasVector&) const override {
+    return {};  // the optimiser ends at the optimum, which is smooth
+  }
+
+  std::optional<AtlasThrow> finished(const Eigen::Vector2d& place,
+                                     const AtlasThrow& found) const override {
+    const auto again = solved(place, found, found.inside > 0 ? kNodeShare : kBeyondShare, true);
+    return again ? again : found;
+  }
+
+ private:
+  std::optional<AtlasThrow> solved(const Eigen::Vector2d& place,
+                                   const AtlasThrow& near,
+                                   double share,
+                                   bool own_departure) const {
+    const ThrowRequest request = requestTo(place);
+    SwingTask task = planner_.taskFor(request, shoulder_);
+    task.limit_factor *= share;
+    task.aim = {near.aim.dot(request.target.rightAxis()), near.aim.dot(request.target.upAxis())};
+    const SwingSolution solution =
+        optimiseSwing(task, near.x, near.elbow_sign, config_.max_evaluations);
+    if (!(solution.violation < kSolved))
+      return {};
+    return entryOf(place, near, solution, own_departure);
+  }
+
+  std::optional<AtlasThrow> entryOf(const Eigen::Vector2d& place,
+                                    const AtlasThrow& near,
+                                    const SwingSolution& solution,
+                                    bool own_departure) const {
+    const model::Target target = requestTo(place).target;
+    const WholeMotion motion = planner_.motionOf(solution, {});
+    const double t_command = predictor_.commandTime(motion);
+    const WristAngles wrist{solution.x[kWristRoll], solution.x[kWristFlexion]};
+    const auto prediction =
+        predict(motion, wrist, target, t_command, own_departure ? nullptr : &near.departure);
+    if (!prediction)
+      return {};
+    AtlasThrow entry;
+    entry.x = solution.x;
+    entry.elbow_sign = solution.elbow_sign;
+    entry.lead = 1e-3 * std::round(1e3 * (t_command - motion.t_zero));
+    entry.cost = -solution.release_speed;
+    note(motion, *prediction, target, near.aim, entry);
+    return entry;
+  }
+
+  SwingPlanner planner_;
+  Shoulder shoulder_;
+  int family_;
+};
+
+class Builder {
+ public:
+  Builder(const PlannerConfig& config, int threads, const AtlasProgress& progress)
+      : config_(config),
+        grid_{config.atlas.distance, config.atlas.height, config.atlas.step},
+        threads_(threads),
+        progress_(progress) {}
+
+  Atlas build() {
+    const Eigen::Vector3d facing = -Eigen::Vector3d::UnitX();
+    const std::vector<bool> everywhere(grid_.nodes(), true);
+    std::vector<bool> wanted = everywhere;
+    for (const double length : config_.robust.window_lengths) {
+      const WindowKind window{length, config_.robust.limit_share};
+      std::vector<std::unique_ptr<ThrowSource>> sources;
+      for (int family = 0; family < static_cast<int>(windowStarts(0, length).size()); family += 2)
+        sources.push_back(std::make_unique<Windows>(config_, window, family, facing));
+      addLayers(sources, wanted);
+      wanted = unreached(ThrowKind::kWindow);
+    }
+    addSwings(Shoulder::kFree, facing, wanted);
+    addSwings(Shoulder::kHeld, facing, everywhere);
+    return Atlas(grid_, std::move(layers_));
+  }
+
+ private:
+  void addSwings(Shoulder shoulder,
+                 const Eigen::Vector3d& facing,
+                 const std::vector<bool>& wanted) {
+    std::vector<std::unique_ptr<ThrowSource>> sources;
+    for (int family = 0; family < static_cast<int>(storedStarts(shoulder, 0).size()); family += 2)
+      sources.push_back(std::make_unique<Swings>(config_, shoulder, family, facing));
+    addLayers(sources, wanted);
+  }
+
+  /// One layer each, by as many threads as may be used.
+  void addLayers(const std::vector<std::unique_ptr<ThrowSource>>& sources,
+                 const std::vector<bool>& wanted) {
+    const std::size_t before = layers_.size();
+    layers_.resize(before + sources.size());
+    std::vector<std::atomic<double>> shares(sources.size());
+    const std::thread::id this_thread = std::this_thread::get_id();
+    const double stages = static_cast<double>(config_.robust.window_lengths.size()) + 2;
+    const auto tell = [&](std::size_t source, double share) {
+      shares[source] = share;
+      if (!progress_ || std::this_thread::get_id() != this_thread)
+        return;
+      const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+      progress_((stages_done_ + sum / static_cast<double>(sources.size())) / stages);
+    };
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < sources.size(); i = next++)
+        layers_[before + i] =
+            buildLayer(grid_, *sources[i], wanted, [&](double share) { tell(i, share); });
+    };
+    std::vector<std::thread> workers;
+    for (int i = 1; i < threads_; ++i)
+      workers.emplace_back(work);
+    work();
+    for (std::thread& worker : workers)
+      worker.join();
+    ++stages_done_;
+  }
+
+  /// Nodes to which no throw of a kind leads, and those next to them.
+  std::vector<bool> unreached(ThrowKind kind) const {
+    const auto reached = [&](int column, int row) {
+      return std::any_of(layers_.begin(), layers_.end(), [&](const AtlasLayer& layer) {
+        const auto& node = layer.nodes[grid_.node(column, row)];
+        return layer.kind == kind && node && node->inside > 0;
+      });
+    };
+    std::vector<bool> result(grid_.nodes());
+    for (int row = 0; row < grid_.rows(); ++row) {
+      for (int column = 0; column < grid_.columns(); ++column) {
+        for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid_.rows() - 1); ++r)
+          for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid_.columns() - 1); ++c)
+            result[grid_.node(column, row)] = result[grid_.node(column, row)] || !reached(c, r);
+      }
+    }
+    return result;
+  }
+
+  const PlannerConfig& config_;
+  AtlasGrid grid_;
+  int threads_;
+  const AtlasProgress& progress_;
+  std::vector<AtlasLayer> layers_;
+  int stages_done_ = 0;
+};
+
+}  // namespace
+
+Atlas buildAtlas(const PlannerConfig& config, int threads, const AtlasProgress& progress) {
+  return Builder(config, threads, progress).build();
+}
+
+}  // namespace fastball::planner

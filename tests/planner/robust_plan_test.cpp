@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "config/arm_file.h"
+#include "model/ball_flight.h"
+#include "tests/planner/default_throw.h"
+
+// Strategy `robust` at the default target: it does not matter when the ball leaves.
+namespace fastball::planner {
+namespace {
+
+class RobustPlan : public testing::TestWithParam<const char*> {
+ protected:
+  RobustPlan() {
+    example_.config.arm = config::readArm(config::Section::fromFile(
+        std::filesystem::path(FASTBALL_SOURCE_DIR) / "config/arm" / GetParam()));
+    ThrowRequest request = example_.request();
+    request.strategy = "robust";
+    const PlanResult result = Planner(example_.config).plan(request);
+    if (const Refusal* refusal = std::get_if<Refusal>(&result))
+      throw std::runtime_error(refusal->sentence);
+    plan_ = std::get<Plan>(result);
+  }
+  /// The ball in the hand.
+  model::BallState held(double t) const {
+    const model::Arm arm(example_.config.arm, example_.config.hand.payload);
+    const model::Hand hand(example_.config.hand);
+    const Eigen::Vector3d p_TBall =
+        hand.X_TH(plan_.wrist_roll, plan_.wrist_flexion) * example_.config.hand.p_HBall;
+    const model::ArmMotion motion = plan_.trajectory.at(t);
+    return {arm.p_WPoint(motion.q, p_TBall), arm.pointJacobian(motion.q, p_TBall) * motion.qd};
+  }
+
+  DefaultThrow example_;
+  Plan plan_;
+};
+
+TEST_P(RobustPlan, LandingDoesNotMoveWithTheMomentOfRelease) {
+  EXPECT_NEAR(plan_.release_window[1] - plan_.release_window[0], 0.04, 1e-9);
+  EXPECT_EQ(plan_.release_window[0], plan_.t_release_command);
+  const auto landing = [&](double t) {
+    return model::land(held(t), example_.experiment.target, example_.config.ball.dragPerMetre(),
+                       example_.config.arm.gravity)
+        .value()
+        .landing;
+  };
+  const Eigen::Vector2d first = landing(plan_.release_window[0]);
+  for (double t = plan_.release_window[0]; t <= plan_.release_window[1]; t += 1e-3)
+    EXPECT_LT((landing(t) - first).norm(), 3e-3) << t;
+}
+
+TEST_P(RobustPlan, BallAsTheFingersLetItGoLandsOnTheTarget) {
+  EXPECT_LT(plan_.landing.norm(), example_.config.landing_tolerance);
+  EXPECT_GT(plan_.release.v_WBall.norm(), 5);
+  EXPECT_GT(plan_.t_release, plan_.release_window[0]);
+  EXPECT_LT(plan_.t_release, plan_.release_window[1]);
+}
+
+TEST_P(RobustPlan, ResidualAccelerationIsWhatThePlanSays) {
+  const bool is_90v = std::string(GetParam()) == "wam4-90v.yaml";
+  // With the speed limits of 48 V no window of this length is a free flight.
+  EXPECT_LT(plan_.residual_acceleration, is_90v ? 0.3 : 35);
+  const double h = 1e-4;
+  for (double t = plan_.release_window[0] + h; t < plan_.release_window[1]; t += 1e-3) {
+    const Eigen::Vector3d a = (held(t + h).v_WBall - held(t - h).v_WBall) / (2 * h);
+    const Eigen::Vector3d push =
+        a - model::flightAcceleration(held(t).v_WBall, example_.config.ball.dragPerMetre(),
+                                      example_.config.arm.gravity);
+    EXPECT_LT(push.norm(), plan_.residual_acceleration + 0.1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(With,
+                         RobustPlan,
+                         testing::Values("wam4-48v.yaml", "wam4-90v.yaml"),
+                         [](const auto& profile) {
+                           return std::string(profile.param) == "wam4-48v.yaml" ? "48V" : "90V";
+                         });
+
+}  // namespace
+}  // namespace fastball::planner
