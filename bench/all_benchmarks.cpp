@@ -1,7 +1,6 @@
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
 #include "bench/plan_rows.h"
-#include "bench/plan_rows.h"
 #include "bench/reach_rows.h"
 #include "bench/robust_rows.h"
 #include "bench/row.h"
@@ -12,8 +11,9 @@ namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
-                           sceneBenchmarks(), planBenchmarks(), robustBenchmarks()}) {
+  for (const auto& some :
+       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), sceneBenchmarks(),
+        planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -19,9 +19,9 @@ namespace {
 // Evaluations from a stored start, and from the throw of a neighbour.
 constexpr int kFirstEvaluations = 150, kNextEvaluations = 40;
 // To make a throw better that is inside the limits.
-constexpr int kBetterEvaluations = 14;
+constexpr int kBetterEvaluations = 12;
 constexpr int kAimRounds = 5;
-constexpr double kAimed = 5e-4;  // [m]
+constexpr double kAimed = 5e-4, kSwingAimed = 3e-3;  // [m]
 // What it costs to be unlike the neighbours, beside what the landing's errors cost.
 constexpr double kNearness = 0.01;
 // Of the planner's limits, used by a node, so that what is interpolated between nodes keeps them.
@@ -216,17 +216,13 @@ class Swings : public PlannedThrows {
     AtlasThrow near;
     near.x = start.x;
     near.elbow_sign = start.elbow_sign;
-    const auto ideal = solved(place, near, kNodeShare, true);
-    if (!ideal)
-      return {};
-    // Again with the departure known: the first shift of the aim is large.
-    return solved(place, *ideal, kNodeShare, true);
+    return settled(place, near, kNodeShare);
   }
 
   std::optional<AtlasThrow> next(const Eigen::Vector2d& place,
                                  const AtlasThrow& near,
                                  bool beyond) const override {
-    return solved(place, near, beyond ? kBeyondShare : kNodeShare, true);
+    return settled(place, near, beyond ? kBeyondShare : kNodeShare);
   }
 
   std::optional<AtlasThrow> smoothed(const Eigen::Vector2d&,
@@ -235,17 +231,29 @@ class Swings : public PlannedThrows {
     return {};  // the optimiser ends at the optimum, which is smooth
   }
 
-  std::optional<AtlasThrow> finished(const Eigen::Vector2d& place,
+  std::optional<AtlasThrow> finished(const Eigen::Vector2d&,
                                      const AtlasThrow& found) const override {
-    const auto again = solved(place, found, found.inside > 0 ? kNodeShare : kBeyondShare, true);
-    return again ? again : found;
+    return found;  // it is: its departure is its own
   }
 
  private:
+  /// Solved and aimed anew until the aim stands still.
+  std::optional<AtlasThrow> settled(const Eigen::Vector2d& place,
+                                    AtlasThrow start,
+                                    double share) const {
+    for (int round = 0; round < kAimRounds; ++round) {
+      const Eigen::Vector3d aim = start.aim;
+      const auto found = solved(place, start, share);
+      if (!found || (found->aim - aim).norm() < kSwingAimed)
+        return found;
+      start = *found;
+    }
+    return {};
+  }
+
   std::optional<AtlasThrow> solved(const Eigen::Vector2d& place,
                                    const AtlasThrow& near,
-                                   double share,
-                                   bool own_departure) const {
+                                   double share) const {
     const ThrowRequest request = requestTo(place);
     SwingTask task = planner_.taskFor(request, shoulder_);
     task.limit_factor *= share;
@@ -254,19 +262,10 @@ class Swings : public PlannedThrows {
         optimiseSwing(task, near.x, near.elbow_sign, config_.max_evaluations);
     if (!(solution.violation < kSolved))
       return {};
-    return entryOf(place, near, solution, own_departure);
-  }
-
-  std::optional<AtlasThrow> entryOf(const Eigen::Vector2d& place,
-                                    const AtlasThrow& near,
-                                    const SwingSolution& solution,
-                                    bool own_departure) const {
-    const model::Target target = requestTo(place).target;
     const WholeMotion motion = planner_.motionOf(solution, {});
     const double t_command = predictor_.commandTime(motion);
     const WristAngles wrist{solution.x[kWristRoll], solution.x[kWristFlexion]};
-    const auto prediction =
-        predict(motion, wrist, target, t_command, own_departure ? nullptr : &near.departure);
+    const auto prediction = predict(motion, wrist, request.target, t_command, nullptr);
     if (!prediction)
       return {};
     AtlasThrow entry;
@@ -274,7 +273,7 @@ class Swings : public PlannedThrows {
     entry.elbow_sign = solution.elbow_sign;
     entry.lead = 1e-3 * std::round(1e3 * (t_command - motion.t_zero));
     entry.cost = -solution.release_speed;
-    note(motion, *prediction, target, near.aim, entry);
+    note(motion, *prediction, request.target, near.aim, entry);
     return entry;
   }
 
@@ -303,7 +302,7 @@ class Builder {
       addLayers(sources, wanted);
       wanted = unreached(ThrowKind::kWindow);
     }
-    addSwings(Shoulder::kFree, facing, wanted);
+    addSwings(Shoulder::kFree, facing, everywhere);
     addSwings(Shoulder::kHeld, facing, everywhere);
     return Atlas(grid_, std::move(layers_));
   }

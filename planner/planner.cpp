@@ -46,7 +46,7 @@ Planner::Planner(const PlannerConfig& config,
 std::vector<ThrowKind> Planner::kindsFor(const std::string& strategy) const {
   // Out of reach of any window: the fastest throw of all.
   if (strategy == "robust")
-    return {ThrowKind::kWindow, ThrowKind::kFreeSwing};
+    return {ThrowKind::kWindow, ThrowKind::kFreeSwing, ThrowKind::kHeldSwing};
   std::vector<ThrowKind> kinds;
   for (const Shoulder shoulder : config_.shoulders)
     kinds.push_back(shoulder == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing);
