@@ -3,6 +3,7 @@
 #include "planner/node.h"
 
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -34,6 +35,8 @@ class PlannerNode : public testing::Test {
     network_.run([] { return false; });
   }
 
+  /// Without an atlas, as the library below plans.
+  const int no_cache_ = setenv("XDG_CACHE_HOME", "/nonexistent", 1);
   DefaultThrow example_;
   messaging::ManualClock clock_;
   messaging::LocalNetwork network_{clock_};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/ball_flight.h"
 #include "tests/planner/default_throw.h"
 
 namespace fastball::planner {
@@ -232,10 +233,18 @@ TEST_F(RefusedThrow, FromAPoseAtAStop) {
   EXPECT_THAT(refusalOf(planner_.plan(request)), AllOf(HasSubstr("joint 4"), HasSubstr("3.1 rad")));
 }
 
-TEST_F(RefusedThrow, IntoANetThatLiesFlat) {
+TEST_F(RefusedThrow, NotIntoANetThatLiesFlatFacingUp) {
   ThrowRequest request = example_.request();
   request.target.n_WTarget = {0, 0, 1};
-  EXPECT_THAT(refusalOf(planner_.plan(request)), HasSubstr("flat"));
+  const PlanResult result = planner_.plan(request);
+  ASSERT_TRUE(std::holds_alternative<Plan>(result));
+  const Plan& plan = std::get<Plan>(result);
+  const auto landing =
+      model::land(plan.release, request.target, example_.config.ball.dragPerMetre(),
+                  example_.config.arm.gravity);
+  ASSERT_TRUE(landing);
+  EXPECT_LT(landing->landing.norm(), 1e-3);
+  EXPECT_LT(landing->state.v_WBall.z(), 0);
 }
 
 }  // namespace
