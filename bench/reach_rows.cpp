@@ -109,6 +109,7 @@ double handSpeed(const planner::Planner& planner, const planner::Plan& plan) {
 Row speedShare(const std::string& id, planner::Shoulder shoulder) {
   Setup setup;
   setup.config.swing.shoulder = shoulder;
+  setup.config.shoulders = {shoulder};
   const planner::Planner planner(setup.config);
   const planner::PlanResult result =
       planner.plan({"paper", setup.experiment.q_rest, setup.experiment.target, kSeed});
