@@ -14,7 +14,7 @@ using model::kArmJoints;
 constexpr int kVariables = ReleaseRows::kBy;
 using Variables = Eigen::Matrix<double, kVariables, 1>;
 
-constexpr int kInequalities = 11;  // 8 of speed, 2 clearances, from the front
+constexpr int kInequalities = 11;  // 8 of speed, 2 clearances, through the ring
 constexpr int kMaxEvaluations = 200;
 constexpr double kHolds = 1e-6;
 constexpr double kAlike = 0.02;                            // [rad], [rad/s]
@@ -65,14 +65,14 @@ struct Problem {
     const ReleaseRows rows = release(x);
     Eigen::Map<Eigen::Matrix<double, kInequalities, 1>> values(c);
     values << slopes.rows.value.segment<8>(LimitRows::kSpeed), slopes.rows.value.tail<2>(),
-        rows.from_behind;
+        rows.grazing;
     if (gradient == nullptr)
       return;
     Eigen::Map<Rows> by_x(gradient, kInequalities, kVariables);
     by_x.setZero();
     by_x.block<8, 4>(0, 4) = slopes.by_qd.middleRows<8>(LimitRows::kSpeed);
     by_x.block<2, 4>(8, 0) = slopes.by_q.bottomRows<2>();
-    by_x.row(10) = rows.from_behind_slope;
+    by_x.row(10) = rows.grazing_slope;
   }
 
   double violation(const Variables& x) const {

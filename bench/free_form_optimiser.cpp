@@ -101,10 +101,10 @@ struct FreeFormOptimiser::Round {
       gradient = std::copy_n(row_gradient.data(), x.size(), gradient);
     }
     const ReleaseRows release = problem.release(x);
-    *c = release.from_behind;
+    *c = release.grazing;
     if (gradient != nullptr) {
       Eigen::Map<Rows>(gradient, 1, x.size()) =
-          problem.releaseGradient(x, release.from_behind_slope);
+          problem.releaseGradient(x, release.grazing_slope);
     }
   }
 
@@ -199,7 +199,7 @@ FreeFormSolution FreeFormOptimiser::assess(const Eigen::VectorXd& x, double rese
     return solution;
   const EqualRows rows = equalRows(problem_.task());
   solution.speed = release.speed;
-  solution.violation = std::max({0.0, limits.maxCoeff() + reserve / 2, release.from_behind});
+  solution.violation = std::max({0.0, limits.maxCoeff() + reserve / 2, release.grazing});
   for (int i = rows.first; i < rows.first + rows.count; ++i)
     solution.violation = std::max(solution.violation, std::abs(release.equal[i]));
   return solution;

@@ -49,9 +49,9 @@ Squares squaresAt(const FreeFormProblem& problem,
       problem.releaseGradient(x, release.equal_slope.middleRows(rows.first, rows.count));
   for (int i = 0; i < rows.count; ++i)
     squares.add(release.equal[rows.first + i], equal_slopes.row(i).transpose());
-  if (release.from_behind > 0) {
-    squares.add(release.from_behind,
-                problem.releaseGradient(x, release.from_behind_slope).row(0).transpose());
+  if (release.grazing > 0) {
+    squares.add(release.grazing,
+                problem.releaseGradient(x, release.grazing_slope).row(0).transpose());
   }
   return squares;
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/plan.h"
+
 namespace fastball::bench {
 namespace {
 
@@ -16,7 +18,6 @@ constexpr double kColumnTop = 0.1;
 // [rad/s], of the friction from above: the true step is 0.01 wide.
 constexpr double kFrictionWidth = 0.03, kFrictionLead = 5 * kFrictionWidth;
 constexpr double kFlightSpeed = 10;  // [m/s], scale of the velocity at the target
-constexpr double kFront = 0.01;      // of that scale: the ball does not graze the target's plane
 
 /// How the speeds, or torques, of four joints enter the eight rows.
 using Shares = Eigen::Matrix<double, 8, kArmJoints>;
@@ -141,7 +142,7 @@ ReleaseRows releaseRows(const FreeThrow& task,
   rows.speed = point.v.norm();
   rows.speed_slope = point.v.stableNormalized().transpose() * dv;
   rows.equal_slope.setZero();
-  rows.from_behind_slope.setZero();
+  rows.grazing_slope.setZero();
   if (task.across_forearm) {
     const model::DirectionMotion forearm = task.arm->toolAxis(q);
     rows.equal[3] = forearm.e.dot(point.v);
@@ -156,11 +157,15 @@ ReleaseRows releaseRows(const FreeThrow& task,
   rows.equal.head<3>() = end.state.p_WBall - task.target->p_WTarget;
   rows.equal_slope.topRows<3>() = dp + end.dp_dv * dv;
   rows.equal_slope.topRightCorner<3, 1>() = end.state.v_WBall;
-  const Eigen::RowVector3d n = task.target->n_WTarget.transpose() / kFlightSpeed;
-  rows.from_behind = n * end.state.v_WBall + kFront;
-  rows.from_behind_slope = n * end.dv_dv * dv;
-  rows.from_behind_slope[ReleaseRows::kBy - 1] =
-      n * model::flightAcceleration(end.state.v_WBall, task.drag_per_metre, gravity);
+  const Eigen::Vector3d& v = end.state.v_WBall;
+  const Eigen::RowVector3d n = task.target->n_WTarget.transpose(),
+                           by_v =
+                               (n + planner::kLeastSteepness * v.stableNormalized().transpose()) /
+                               kFlightSpeed;
+  rows.grazing = (n * v + planner::kLeastSteepness * v.norm()) / kFlightSpeed;
+  rows.grazing_slope = by_v * end.dv_dv * dv;
+  rows.grazing_slope[ReleaseRows::kBy - 1] =
+      by_v * model::flightAcceleration(end.state.v_WBall, task.drag_per_metre, gravity);
   return rows;
 }
 

@@ -63,9 +63,9 @@ struct ReleaseRows {
   /// velocity along the forearm [m/s].
   Eigen::Vector4d equal = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, kBy> equal_slope;
-  /// <= 0: velocity out of the ring's front at the flight's end [10 m/s].
-  double from_behind = 0;
-  Gradient from_behind_slope;
+  /// <= 0: how much too flat the ball comes through the ring from its front, planner::kLeastSteepness [10 m/s].
+  double grazing = 0;
+  Gradient grazing_slope;
 };
 ReleaseRows releaseRows(const FreeThrow& task,
                         const Eigen::Vector4d& q,

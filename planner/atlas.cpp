@@ -5,16 +5,18 @@
 #include <array>
 #include <cmath>
 
+#include "planner/release_window.h"
 #include "planner/swing_curve.h"
 
 namespace fastball::planner {
 namespace {
 
 // How far variables of throws may be apart that are alike.
-constexpr double kAlikeAngles = 0.3;  // [rad], the pose at the begin of a window or of a swing
-constexpr double kAlikeTimes = 0.15;  // [s], flight, run-up and braking
-constexpr int kTimeToGo = 4;          // index in the variables of a window throw
-constexpr double kAlikeSwing = 1.0;   // [rad, rad/s, 1/s] parameters of the base functions
+constexpr double kAlikeAngles = 0.3;      // [rad], the pose at the begin of a window or of a swing
+constexpr double kAlikeTimes = 0.15;      // [s], flight, run-up and braking
+constexpr double kAlikeDeparture = 0.05;  // [m/s], of the ball in the hand as it departs
+constexpr int kCrossingSteps = 4;         // Newton's, to the plane of a ring
+constexpr double kAlikeSwing = 1.0;       // [rad, rad/s, 1/s] parameters of the base functions
 
 AtlasThrow scaled(AtlasThrow t, double weight) {
   t.x *= weight;
@@ -23,6 +25,7 @@ AtlasThrow scaled(AtlasThrow t, double weight) {
   t.departure.p_H *= weight;
   t.departure.v_H *= weight;
   t.v_arrival *= weight;
+  t.v_aimed *= weight;
   t.q_ready *= weight;
   t.cost *= weight;
   t.inside *= weight;
@@ -36,6 +39,7 @@ void add(AtlasThrow& sum, const AtlasThrow& t, double weight) {
   sum.departure.p_H += weight * t.departure.p_H;
   sum.departure.v_H += weight * t.departure.v_H;
   sum.v_arrival += weight * t.v_arrival;
+  sum.v_aimed += weight * t.v_aimed;
   sum.q_ready += weight * t.q_ready;
   sum.cost += weight * t.cost;
   sum.inside += weight * t.inside;
@@ -84,7 +88,7 @@ AtlasThrow blended(const std::array<const AtlasThrow*, 4>& corners,
     }
   }
   if (count < 3) {
-    base.departs_alike = false;
+    base.interpolated = base.departs_alike = false;
     return base;
   }
   if (count == 3) {
@@ -97,8 +101,11 @@ AtlasThrow blended(const std::array<const AtlasThrow*, 4>& corners,
   }
   AtlasThrow sum = scaled(base, 0);
   for (int c = 0; c < 4; ++c) {
-    if (weights[c] != 0)
-      add(sum, *corners[c], weights[c]);
+    if (weights[c] == 0)
+      continue;
+    add(sum, *corners[c], weights[c]);
+    const Eigen::Vector3d v_gap = corners[c]->departure.v_H - base.departure.v_H;
+    sum.departs_alike = sum.departs_alike && v_gap.norm() <= kAlikeDeparture;
   }
   return sum;
 }
@@ -116,13 +123,20 @@ bool alike(const AtlasThrow& a, const AtlasThrow& b) {
          gap.segment<8>(10).maxCoeff() <= kAlikeTimes;
 }
 
-AtlasThrow AtlasThrow::through(const model::Target& target) const {
+AtlasThrow AtlasThrow::through(const model::Target& target, double gravity) const {
+  // Along a parabola; what drag does in so short a time is nothing.
+  const Eigen::Vector3d& n = target.n_WTarget;
+  const Eigen::Vector3d fall = -gravity / 2 * Eigen::Vector3d::UnitZ();
+  double later = 0;
+  for (int i = 0; i < kCrossingSteps; ++i) {
+    const double rate = n.dot(v_aimed + 2 * later * fall);
+    if (rate >= 0)
+      return *this;
+    later -= n.dot(aim + later * (v_aimed + later * fall)) / rate;
+  }
   AtlasThrow result = *this;
-  const double rate = target.n_WTarget.dot(v_arrival);
-  if (rate == 0)
-    return result;
-  const double later = -target.n_WTarget.dot(aim) / rate;
-  result.aim += later * v_arrival;
+  result.aim += later * (v_aimed + later * fall);
+  result.v_aimed += 2 * later * fall;
   result.x[window > 0 ? kTimeToGo : static_cast<int>(kFlightTime)] += later;
   return result;
 }
@@ -145,6 +159,7 @@ AtlasThrow mirrored(AtlasThrow t) {
     t.q_ready[joint] = -t.q_ready[joint];
   t.aim.y() = -t.aim.y();
   t.v_arrival.y() = -t.v_arrival.y();
+  t.v_aimed.y() = -t.v_aimed.y();
   // The hand's y axis is along the throw, z along the forearm.
   t.departure.p_H.x() = -t.departure.p_H.x();
   t.departure.v_H.x() = -t.departure.v_H.x();
@@ -157,6 +172,7 @@ AtlasThrow turned(AtlasThrow t, double angle) {
   const Eigen::AngleAxisd about_z(angle, Eigen::Vector3d::UnitZ());
   t.aim = about_z * t.aim;
   t.v_arrival = about_z * t.v_arrival;
+  t.v_aimed = about_z * t.v_aimed;
   return t;
 }
 

@@ -33,9 +33,9 @@ struct AtlasGrid {
 
 /// What makes a throw.
 enum class ThrowKind {
-  kWindow,      ///< a release window
-  kHeldSwing,   ///< the kinetic chain, joint 2 held
-  kFreeSwing,   ///< the kinetic chain with joint 2
+  kWindow,     ///< a release window
+  kHeldSwing,  ///< the kinetic chain, joint 2 held
+  kFreeSwing,  ///< the kinetic chain with joint 2
 };
 
 /// Decision variables of a window throw or of a swing.
@@ -50,15 +50,18 @@ struct AtlasThrow {
   /// [m], where the ball as it moves in the hand is aimed, less the target: the fingers do the rest. In the plane of the ring.
   Eigen::Vector3d aim = Eigen::Vector3d::Zero();
   HandDeparture departure;
-  bool departs_alike = true;  ///< false: the departure is that of a throw not so near that it holds for this one
+  bool interpolated = true;  ///< false: it is the throw to a node nearby
+  bool departs_alike =
+      true;  ///< false: the departure may be another one, as it differs between the nodes around
   Eigen::Vector3d v_arrival = Eigen::Vector3d::Zero();  ///< [m/s], of the ball at the target
-  Eigen::Vector4d q_ready = Eigen::Vector4d::Zero();  ///< [rad], where the swing begins
+  Eigen::Vector3d v_aimed = Eigen::Vector3d::Zero();    ///< [m/s], of the ball that is aimed, there
+  Eigen::Vector4d q_ready = Eigen::Vector4d::Zero();    ///< [rad], where the swing begins
   /// 1: keeps all limits; 0: exceeds them a little, and is but a start; between them what is interpolated from both.
   double inside = 1;
-  double cost = 0;                                    ///< of throws of one kind the least is the best
+  double cost = 0;  ///< of throws of one kind the least is the best
 
-  /// The same throw aimed in the plane of another ring: the ball comes there a little earlier or later.
-  AtlasThrow through(const model::Target& target) const;
+  /// The same throw with its aim in the plane of another ring, through which the aimed ball comes a little earlier or later.
+  AtlasThrow through(const model::Target& target, double gravity) const;
   /// Sine of the angle at which the ball meets the plane of a ring with normal `n_W`; positive: from its front.
   double steepness(const Eigen::Vector3d& n_W) const { return -n_W.dot(v_arrival.normalized()); }
 };

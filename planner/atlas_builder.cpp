@@ -29,7 +29,9 @@ constexpr double kNodeShare = 0.995;
 // The same for a node that is but a start.
 constexpr double kBeyondShare = 1.04;
 constexpr double kRingRadius = 0.1;  // [m], no throw depends on it
-constexpr double kSolved = 1e-4;     // violation of a swing's constraints
+constexpr double kFlatter =
+    0.52;  // sine of the angle to the ring: one turned by 45 degrees is still met at 0.35
+constexpr double kSolved = 1e-4;  // violation of a swing's constraints
 
 /// What is the same for windows and swings.
 class PlannedThrows : public ThrowSource {
@@ -52,9 +54,9 @@ class PlannedThrows : public ThrowSource {
                                            const model::Target& target,
                                            double t_command,
                                            const HandDeparture* departure) const {
-    return departure != nullptr ? predictByDeparture(config_, arm_, *departure, motion, wrist,
-                                                     target, t_command)
-                                : predictor_.predict(motion, wrist, target, t_command);
+    return departure != nullptr
+               ? predictByDeparture(config_, arm_, *departure, motion, wrist, target, t_command)
+               : predictor_.predict(motion, wrist, target, t_command);
   }
 
   /// Puts into `entry` what the prediction says.
@@ -62,14 +64,28 @@ class PlannedThrows : public ThrowSource {
             const ReleasePrediction& prediction,
             const model::Target& target,
             Eigen::Vector3d aim,
+            double flight_time,
             AtlasThrow& entry) const {
     const Eigen::Vector2d& miss = prediction.landing.landing;
     aim -= miss.x() * target.rightAxis() + miss.y() * target.upAxis();
     entry.v_arrival = prediction.landing.state.v_WBall;
+    entry.v_aimed = aimedArrival(motion, prediction.wrist, flight_time);
     entry.aim = aim;
     entry.departure = seenFromHand(config_, arm_, motion, prediction);
     entry.q_ready = motion.trajectory.at(motion.t_swing).q;
     entry.inside = checkLimits(arm_, motion.trajectory).violation ? 0 : 1;
+  }
+
+  /// Velocity [m/s] at the target of a ball that leaves at t = 0 of the swing with the hand.
+  Eigen::Vector3d aimedArrival(const WholeMotion& motion,
+                               const WristAngles& wrist,
+                               double flight_time) const {
+    const Eigen::Vector3d p_TBall =
+        model::Hand(config_.hand).X_TH(wrist.roll, wrist.flexion) * config_.hand.p_HBall;
+    const model::ArmMotion at = motion.trajectory.at(motion.t_zero);
+    const model::BallState ball{arm_.p_WPoint(at.q, p_TBall),
+                                arm_.pointJacobian(at.q, p_TBall) * at.qd};
+    return model::fly(ball, flight_time, config_.ball.dragPerMetre(), config_.arm.gravity).v_WBall;
   }
 
   const PlannerConfig& config_;
@@ -80,7 +96,10 @@ class PlannedThrows : public ThrowSource {
 
 class Windows : public PlannedThrows {
  public:
-  Windows(const PlannerConfig& config, const WindowKind& window, int family, const Eigen::Vector3d& facing)
+  Windows(const PlannerConfig& config,
+          const WindowKind& window,
+          int family,
+          const Eigen::Vector3d& facing)
       : PlannedThrows(config, facing),
         planner_(config, arm_, predictor_),
         window_(window),
@@ -140,7 +159,9 @@ class Windows : public PlannedThrows {
   }
 
   /// `start` inside the limits and aimed right, its ball departing as it says.
-  std::optional<AtlasThrow> aimed(const Eigen::Vector2d& place, AtlasThrow start, double share) const {
+  std::optional<AtlasThrow> aimed(const Eigen::Vector2d& place,
+                                  AtlasThrow start,
+                                  double share) const {
     for (int round = 0; round < kAimRounds; ++round) {
       const WindowSolution solution =
           correctWindowThrow(problemFor(place, start.aim, share),
@@ -181,8 +202,8 @@ class Windows : public PlannedThrows {
                                     const AtlasThrow& found,
                                     const HandDeparture* departure) const {
     const model::Target target = requestTo(place).target;
-    const auto motion = planner_.motionOf(problemFor(place, found.aim, 1), {},
-                                          fromVector(found.x, window_.length));
+    const auto motion =
+        planner_.motionOf(problemFor(place, found.aim, 1), {}, fromVector(found.x, window_.length));
     if (!motion)
       return {};
     const auto prediction =
@@ -190,7 +211,7 @@ class Windows : public PlannedThrows {
     if (!prediction)
       return {};
     AtlasThrow entry = found;
-    note(*motion, *prediction, target, found.aim, entry);
+    note(*motion, *prediction, target, found.aim, found.x[kTimeToGo], entry);
     return entry;
   }
 
@@ -201,11 +222,17 @@ class Windows : public PlannedThrows {
 
 class Swings : public PlannedThrows {
  public:
-  Swings(const PlannerConfig& config, Shoulder shoulder, int family, const Eigen::Vector3d& facing)
+  /// @param steepness as SwingTask has it.
+  Swings(const PlannerConfig& config,
+         Shoulder shoulder,
+         int family,
+         const Eigen::Vector3d& facing,
+         double steepness)
       : PlannedThrows(config, facing),
         planner_(config, arm_, predictor_),
         shoulder_(shoulder),
-        family_(family) {}
+        family_(family),
+        steepness_(steepness) {}
 
   ThrowKind kind() const override {
     return shoulder_ == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing;
@@ -257,6 +284,7 @@ class Swings : public PlannedThrows {
     const ThrowRequest request = requestTo(place);
     SwingTask task = planner_.taskFor(request, shoulder_);
     task.limit_factor *= share;
+    task.steepness = steepness_;
     task.aim = {near.aim.dot(request.target.rightAxis()), near.aim.dot(request.target.upAxis())};
     const SwingSolution solution =
         optimiseSwing(task, near.x, near.elbow_sign, config_.max_evaluations);
@@ -273,13 +301,14 @@ class Swings : public PlannedThrows {
     entry.elbow_sign = solution.elbow_sign;
     entry.lead = 1e-3 * std::round(1e3 * (t_command - motion.t_zero));
     entry.cost = -solution.release_speed;
-    note(motion, *prediction, request.target, near.aim, entry);
+    note(motion, *prediction, request.target, near.aim, solution.x[kFlightTime], entry);
     return entry;
   }
 
   SwingPlanner planner_;
   Shoulder shoulder_;
   int family_;
+  double steepness_;
 };
 
 class Builder {
@@ -302,18 +331,27 @@ class Builder {
       addLayers(sources, wanted);
       wanted = unreached(ThrowKind::kWindow);
     }
-    addSwings(Shoulder::kFree, facing, everywhere);
-    addSwings(Shoulder::kHeld, facing, everywhere);
+    // The fastest throws with joint 2 are lobs, which do not come through a ring that does not quite face the robot.
+    const double steepness = SwingTask().steepness;
+    addSwings(Shoulder::kFree, {{0, steepness}, {1, kFlatter}}, facing, everywhere);
+    addSwings(Shoulder::kHeld, {{0, steepness}, {2, steepness}}, facing, everywhere);
     return Atlas(grid_, std::move(layers_));
   }
 
  private:
+  /// A stored start, counted without mirror images, and how steeply its throws shall meet the ring.
+  struct Family {
+    int start;
+    double steepness;
+  };
   void addSwings(Shoulder shoulder,
+                 const std::vector<Family>& families,
                  const Eigen::Vector3d& facing,
                  const std::vector<bool>& wanted) {
     std::vector<std::unique_ptr<ThrowSource>> sources;
-    for (int family = 0; family < static_cast<int>(storedStarts(shoulder, 0).size()); family += 2)
-      sources.push_back(std::make_unique<Swings>(config_, shoulder, family, facing));
+    for (const Family& family : families)
+      sources.push_back(
+          std::make_unique<Swings>(config_, shoulder, 2 * family.start, facing, family.steepness));
     addLayers(sources, wanted);
   }
 

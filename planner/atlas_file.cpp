@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr const char* kKindNames[] = {"window", "held swing", "free swing"};
 
 template <typename Derived>
@@ -71,9 +71,9 @@ json toJson(const model::HandParameters& hand) {
 }
 
 json toJson(const model::BallParameters& ball) {
-  return {ball.radius,         ball.mass,          ball.drag_coefficient,
-          ball.air_density,    ball.youngs_modulus, ball.damping_ratio,
-          ball.friction,       ball.bristle_stiffness, ball.bristle_damping};
+  return {ball.radius,         ball.mass,          ball.drag_coefficient, ball.air_density,
+          ball.youngs_modulus, ball.damping_ratio, ball.friction,         ball.bristle_stiffness,
+          ball.bristle_damping};
 }
 
 json toJson(const SwingSettings& swing) {
@@ -111,6 +111,7 @@ void forNumbers(Throw& t, const Each& each) {
   vector(t.departure.p_H);
   vector(t.departure.v_H);
   vector(t.v_arrival);
+  vector(t.v_aimed);
   vector(t.q_ready);
   each(t.inside);
   each(t.cost);
@@ -170,24 +171,24 @@ fs::path atlasFolder() {
 
 json atlasKey(const PlannerConfig& config) {
   const ThrowErrors& errors = config.robust.errors;
-  return {{"format", kFormat},
-          {"arm", toJson(config.arm)},
-          {"hand", toJson(config.hand)},
-          {"ball", toJson(config.ball)},
-          {"swing", toJson(config.swing)},
-          {"release", toJson(config.release)},
-          {"motion",
-           {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
-            config.motion.approach_speed}},
-          {"limit_share", config.limit_share},
-          {"max_evaluations", config.max_evaluations},
-          {"landing_tolerance", config.landing_tolerance},
-          {"robust",
-           {{"window_lengths", config.robust.window_lengths},
-            {"limit_share", config.robust.limit_share},
-            {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
-          {"grid",
-           {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
+  return {
+      {"format", kFormat},
+      {"arm", toJson(config.arm)},
+      {"hand", toJson(config.hand)},
+      {"ball", toJson(config.ball)},
+      {"swing", toJson(config.swing)},
+      {"release", toJson(config.release)},
+      {"motion",
+       {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
+        config.motion.approach_speed}},
+      {"limit_share", config.limit_share},
+      {"max_evaluations", config.max_evaluations},
+      {"landing_tolerance", config.landing_tolerance},
+      {"robust",
+       {{"window_lengths", config.robust.window_lengths},
+        {"limit_share", config.robust.limit_share},
+        {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
+      {"grid", {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
 }
 
 fs::path atlasPath(const PlannerConfig& config, const fs::path& folder) {

@@ -7,7 +7,7 @@
 namespace fastball::planner {
 namespace {
 
-constexpr int kFirstEvery = 4;     // nodes, between those that are tried from the family's start
+constexpr int kFirstEvery = 4;  // nodes, between those that are tried from the family's start
 constexpr int kSmoothings = 3;
 // Shares of the work done when its parts are.
 constexpr double kSeeded = 0.3, kFlooded = 0.6, kSmoothed = 0.9;

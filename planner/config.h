@@ -14,7 +14,7 @@ namespace fastball::planner {
 /// Of the strategy `robust`.
 struct RobustSettings {
   std::vector<double> window_lengths;  ///< [s], in the order in which they are tried
-  double limit_share = 0;  ///< of speed and torque limits, used by the optimisation
+  double limit_share = 0;              ///< of speed and torque limits, used by the optimisation
   ThrowErrors errors;
 };
 

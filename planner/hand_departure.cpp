@@ -29,8 +29,7 @@ HandDeparture seenFromHand(const PlannerConfig& config,
   const double t = prediction.t_command + HandDeparture::kTime;
   const model::BallState ball = model::fly(prediction.ball, t - prediction.t_departure,
                                            config.ball.dragPerMetre(), config.arm.gravity);
-  const NominalBall nominal =
-      nominalBall(config, arm, prediction.wrist, motion.trajectory.at(t));
+  const NominalBall nominal = nominalBall(config, arm, prediction.wrist, motion.trajectory.at(t));
   HandDeparture departure;
   departure.delay = prediction.t_departure - prediction.t_command;
   departure.p_H = nominal.R_WH.transpose() * (ball.p_WBall - nominal.ball.p_WBall);

@@ -32,7 +32,9 @@ class PlannerNode : public messaging::Node {
               const messaging::Clock& clock,
               const PlannerConfig& config,
               std::shared_ptr<const Atlas> atlas)
-      : clock_(clock), planner_(config, {}, std::move(atlas)), plans_(endpoint, messaging::kSwingPlan) {
+      : clock_(clock),
+        planner_(config, {}, std::move(atlas)),
+        plans_(endpoint, messaging::kSwingPlan) {
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
                                        [this](const plan_request_t& m) { takeRequest(m); });
   }

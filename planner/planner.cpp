@@ -14,8 +14,9 @@ namespace {
 
 // Throws of the atlas tried before planning anew.
 constexpr std::size_t kCandidates = 4;
-// So much less steeply than allowed a throw of the atlas may meet the ring to be tried: it is not yet aimed.
-constexpr double kSteepnessReserve = 0.02;
+// So much less steeply than asked for a throw of the atlas may meet the ring to be tried: many are solved with that bound and lie
+// on it.
+constexpr double kSteepnessReserve = 0.002;
 // Of what a throw is interpolated from, as much must be inside the limits for it to be tried before others.
 constexpr double kLikely = 0.5;
 // Looking for the nearest target that works: nodes from which to begin, halvings of the way to the target.
@@ -60,7 +61,7 @@ struct Planner::Candidate {
   int preference;  ///< of its kind
   double worth;
 
-  bool likely() const { return start.inside >= kLikely && start.departs_alike; }
+  bool likely() const { return start.inside >= kLikely && start.interpolated; }
   bool before(const Candidate& other) const {
     if (likely() != other.likely())
       return likely();
@@ -83,8 +84,8 @@ std::vector<Planner::Candidate> Planner::candidates(const ThrowRequest& request)
         (q < config_.arm.q_min.array() + margin).any() ||
         (q > config_.arm.q_max.array() - margin).any())
       return {};
-    const double price = kind == ThrowKind::kWindow ? WindowPlanner::kApproachPrice
-                                                    : SwingPlanner::kApproachPrice;
+    const double price =
+        kind == ThrowKind::kWindow ? WindowPlanner::kApproachPrice : SwingPlanner::kApproachPrice;
     const double approach = approachTime(arm_, config_.motion, request.q_arm, seen.q_ready);
     return Candidate{seen, kind, preference, -seen.cost - price * approach};
   };
@@ -234,9 +235,9 @@ Refusal Planner::explain(const ThrowRequest& request, const std::string& obstacl
   std::string sentence = outOfReach(request, place, obstacle);
   Eigen::Vector3d nearest;
   if (const auto plan = nearestPlan(facing, nearest)) {
-    sentence += fmt::format("; the nearest that works is at ({:.3g}, {:.3g}, {:.3g}) m, where {}",
-                            nearest.x(), nearest.y(), nearest.z(),
-                            tightestLimit(arm_, plan->trajectory));
+    sentence +=
+        fmt::format("; the nearest that works is at ({:.3g}, {:.3g}, {:.3g}) m, where {}",
+                    nearest.x(), nearest.y(), nearest.z(), tightestLimit(arm_, plan->trajectory));
   }
   return Refusal{sentence};
 }
@@ -247,9 +248,10 @@ std::string Planner::outOfReach(const ThrowRequest& request,
   const auto needed = neededSpeed(request.target, armReach(config_.arm, config_.hand.p_HBall),
                                   config_.ball.dragPerMetre(), config_.arm.gravity);
   if (!needed) {
-    return fmt::format("the target at {} is out of reach: with its drag, no ball thrown at up to "
-                       "100 m/s gets there",
-                       place);
+    return fmt::format(
+        "the target at {} is out of reach: with its drag, no ball thrown at up to "
+        "100 m/s gets there",
+        place);
   }
   const Shoulder shoulder =
       request.strategy == "robust" ? Shoulder::kFree : config_.shoulders.back();

@@ -118,7 +118,9 @@ ReleaseConditions::Values ReleaseConditions::values(const SwingVector& x,
   values.equalities[0] = release.speedAlong(0);
   values.equalities[1] = release.speedAlong(2);
   if (task_.must_land) {
-    const Vector3d p_W = flight(ball, x[kFlightTime]).state.p_WBall;
+    const model::BallState end = flight(ball, x[kFlightTime]).state;
+    const Vector3d& p_W = end.p_WBall;
+    values.grazing = task_.steepness + task_.target.n_WTarget.dot(end.v_WBall.normalized());
     values.equalities[2] = task_.target.distance(p_W);
     values.equalities.tail<2>() = task_.target.planeCoordinates(p_W) - task_.aim;
   }
@@ -135,6 +137,7 @@ ReleaseConditions::Gradients ReleaseConditions::gradients(
   result.speed = pulled(
       release.ballGradient(Vector3d::Zero(), ball.v.normalized(), Vector3d::Zero()), at_release);
   result.hand_lead = pulled(release.leadGradient(), at_release);
+  result.grazing.setZero();
   result.equalities.setZero();
   result.equalities.row(0) = pulled(release.speedAlongGradient(0), at_release);
   result.equalities.row(1) = pulled(release.speedAlongGradient(2), at_release);
@@ -148,6 +151,14 @@ ReleaseConditions::Gradients ReleaseConditions::gradients(
       row[kFlightTime] = by_p.dot(end.state.v_WBall);
       result.equalities.row(kDirectionEqualities + k) = row;
     }
+    const Vector3d &v_land = end.state.v_WBall, n = task_.target.n_WTarget;
+    const Vector3d e = v_land.normalized();
+    const Vector3d by_v = (n - n.dot(e) * e) / v_land.norm();
+    result.grazing = pulled(
+        release.ballGradient(Vector3d::Zero(), end.dv_dv.transpose() * by_v, Vector3d::Zero()),
+        at_release);
+    result.grazing[kFlightTime] = by_v.dot(model::flightAcceleration(
+        v_land, task_.ball.dragPerMetre(), task_.arm->parameters().gravity));
   }
   return result;
 }

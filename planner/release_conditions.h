@@ -19,12 +19,14 @@ class ReleaseConditions {
     double speed = 0;  ///< [m/s], of the ball
     /// Eq. (24), not positive: the hand falls behind the ball; in 20 m/s^2.
     double hand_lead = 0;
+    /// Not positive: the ball comes through the ring from its front, no flatter than the task asks.
+    double grazing = -1;
     /// Ball velocity along x and z of H [m/s] (Eq. 25); ball at the flight time minus the point aimed at [m]: in front of the target
     /// plane, to the right and up in it.
     Eigen::Matrix<double, kEqualities, 1> equalities;
   };
   struct Gradients {
-    SwingVector speed, hand_lead;
+    SwingVector speed, hand_lead, grazing;
     Eigen::Matrix<double, kEqualities, kSwingVariables, Eigen::RowMajor> equalities;
   };
 

@@ -18,7 +18,7 @@ constexpr double kShortest = 0.01;    // [s], time to go
 
 using ByWindow3 = Eigen::Matrix<double, 3, kWindowParameters>;
 using ByWindow1 = Eigen::Matrix<double, 1, kWindowParameters>;
-enum Parameter { kStart = 0, kTimeToGo = 4, kJoint3 = 5, kPace = 8 };
+constexpr int kStart = 0, kJoint3 = 5;
 
 /// v(p, T), each call beginning where the last one ended.
 class AimedVelocity {

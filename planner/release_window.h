@@ -44,6 +44,8 @@ struct WindowMotion {
 
 /// The parameters of a window, in this order: q_start (4), time_to_go, joint3 (3), pace (2).
 inline constexpr int kWindowParameters = 10;
+/// Of them, where time_to_go and the two paces stand.
+inline constexpr int kTimeToGo = 4, kPace = 8;
 using ByWindow = Eigen::Matrix<double, 3 * model::kArmJoints, kWindowParameters>;
 
 /// Derivatives of WindowMotion.

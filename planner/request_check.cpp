@@ -9,7 +9,7 @@ namespace fastball::planner {
 namespace {
 
 constexpr const char* kStrategies = "paper, robust";
-constexpr double kUnit = 1e-3;      // of a unit vector's length
+constexpr double kUnit = 1e-3;  // of a unit vector's length
 
 std::optional<std::string> targetFault(const model::Target& target) {
   if (!(target.radius > 0)) {
@@ -92,9 +92,10 @@ std::optional<std::string> configFault(const PlannerConfig& config) {
        {armNumbers(config.arm), ballNumbers(config.ball), plannerNumbers(config)}) {
     for (const Bounded& number : numbers) {
       if (!(number.value >= number.low && number.value <= number.high)) {
-        return fmt::format("no throw can be planned for the arm {}: the {} is {:.4g}, it must be "
-                           "between {:.4g} and {:.4g}",
-                           config.arm.profile, number.name, number.value, number.low, number.high);
+        return fmt::format(
+            "no throw can be planned for the arm {}: the {} is {:.4g}, it must be "
+            "between {:.4g} and {:.4g}",
+            config.arm.profile, number.name, number.value, number.low, number.high);
       }
     }
   }

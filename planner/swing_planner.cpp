@@ -17,6 +17,8 @@ constexpr int kAimRounds = 8;
 constexpr int kCorrectionEvaluations = 30, kAtlasEvaluations = 6;
 // Of the limits, kept when they were exceeded between the optimiser's samples.
 constexpr double kTightened = 0.9995;
+// [m], so far off lands a throw whose aim and departure are interpolated, if its neighbours are alike.
+constexpr double kAlikeMiss = 3e-3;
 // Solutions tried before giving up.
 constexpr std::size_t kCandidates = 3;
 // Of the limits, if the grid of 1 ms finds more than the optimiser's samples did.
@@ -33,6 +35,11 @@ std::vector<SwingSolution> solvedOnes(const std::vector<SwingSolution>& solution
 
 double azimuthOf(const model::Target& target) {
   return std::atan2(target.p_WTarget.y(), target.p_WTarget.x());
+}
+
+/// Sine of the angle at which the ball comes through the ring.
+double steepness(const ReleasePrediction& prediction, const model::Target& target) {
+  return -target.n_WTarget.dot(prediction.landing.state.v_WBall.normalized());
 }
 
 /// Phase of a sin base function whose time runs from t0 later.
@@ -67,7 +74,7 @@ WholeMotion SwingPlanner::motionOf(const SwingSolution& solution,
 }
 
 std::vector<SwingSolution> SwingPlanner::solveAll(const SwingTask& task,
-                                             const std::vector<Start>& starts) const {
+                                                  const std::vector<Start>& starts) const {
   std::vector<SwingSolution> solutions;
   double fastest = 0;
   for (const Start& start : starts) {
@@ -87,8 +94,8 @@ std::vector<SwingSolution> SwingPlanner::search(const SwingTask& task,
   std::vector<SwingSolution> solutions = solveAll(task, storedStarts(shoulder, azimuth));
   if (!thoroughly || !solvedOnes(solutions).empty())
     return solutions;
-  const std::vector<SwingSolution> more = solveAll(
-      task, randomStarts(shoulder, azimuth, config_.random_starts, request.seed));
+  const std::vector<SwingSolution> more =
+      solveAll(task, randomStarts(shoulder, azimuth, config_.random_starts, request.seed));
   solutions.insert(solutions.end(), more.begin(), more.end());
   if (!solvedOnes(solutions).empty())
     return solutions;
@@ -96,7 +103,7 @@ std::vector<SwingSolution> SwingPlanner::search(const SwingTask& task,
 }
 
 std::vector<SwingSolution> SwingPlanner::solveHarder(const SwingTask& task,
-                                                std::vector<SwingSolution> solutions) const {
+                                                     std::vector<SwingSolution> solutions) const {
   std::stable_sort(
       solutions.begin(), solutions.end(),
       [](const SwingSolution& a, const SwingSolution& b) { return a.violation < b.violation; });
@@ -113,7 +120,7 @@ std::vector<SwingSolution> SwingPlanner::solveHarder(const SwingTask& task,
 }
 
 void SwingPlanner::sortByWorth(std::vector<SwingSolution>& solutions,
-                          const ThrowRequest& request) const {
+                               const ThrowRequest& request) const {
   const auto worth = [&](const SwingSolution& solution) {
     const SwingCurve curve(solution.x, solution.elbow_sign);
     const double approach =
@@ -126,8 +133,8 @@ void SwingPlanner::sortByWorth(std::vector<SwingSolution>& solutions,
 }
 
 std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::aim(SwingTask task,
-                                                   SwingSolution solution,
-                                                   const ThrowRequest& request) const {
+                                                             SwingSolution solution,
+                                                             const ThrowRequest& request) const {
   double miss = 0, lead = 0;
   for (int round = 0; round < kAimRounds; ++round) {
     WholeMotion motion = motionOf(solution, request.q_arm);
@@ -140,8 +147,10 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::aim(SwingTask task,
     miss = prediction->landing.landing.norm();
     if (miss <= config_.landing_tolerance)
       return Aimed{solution, task.aim, std::move(motion), *prediction};
-    // What the fingers do to the ball hardly depends on the aim: shift it by the miss.
+    // What the fingers do to the ball hardly depends on the aim: shift it by the miss, and the steepness likewise.
     task.aim -= prediction->landing.landing;
+    if (round == 0)
+      task.steepness += SwingTask().steepness - steepness(*prediction, request.target);
     solution = correctSwing(task, solution, kCorrectionEvaluations);
     // The first shift is so large that the nearest throw is not nearly the fastest.
     if (round == 0) {
@@ -160,9 +169,10 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::aim(SwingTask task,
                   kAimRounds, 1e3 * miss)};
 }
 
-std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::realise(SwingTask task,
-                                                       std::vector<SwingSolution> candidates,
-                                                       const ThrowRequest& request) const {
+std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::realise(
+    SwingTask task,
+    std::vector<SwingSolution> candidates,
+    const ThrowRequest& request) const {
   sortByWorth(candidates, request);
   candidates.resize(std::min(candidates.size(), kCandidates));
   std::string obstacle;
@@ -179,12 +189,11 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::realise(SwingTask task,
         continue;
       }
       const Aimed& found = std::get<Aimed>(aimed);
-      const double steepness = -request.target.n_WTarget.dot(
-          found.prediction.landing.state.v_WBall.normalized());
-      if (steepness < kLeastSteepness) {
+      const double steep = steepness(found.prediction, request.target);
+      if (steep < kLeastSteepness) {
         obstacle = fmt::format(
             "the ball meets the ring's plane at {:.0f} degrees, which must be {:.0f} or more",
-            std::asin(steepness) * 180 / M_PI, std::asin(kLeastSteepness) * 180 / M_PI);
+            std::asin(steep) * 180 / M_PI, std::asin(kLeastSteepness) * 180 / M_PI);
         break;
       }
       const LimitUse use = checkLimits(arm_, found.motion.trajectory);
@@ -213,7 +222,8 @@ PlanResult SwingPlanner::plan(const ThrowRequest& request,
   Refusal refusal;
   for (const Shoulder shoulder : shoulders) {
     const SwingTask task = taskFor(request, shoulder);
-    const std::vector<SwingSolution> solutions = search(task, request, shoulder == shoulders.back());
+    const std::vector<SwingSolution> solutions =
+        search(task, request, shoulder == shoulders.back());
     const std::vector<SwingSolution> candidates = solvedOnes(solutions);
     if (candidates.empty()) {
       const auto nearest = std::min_element(
@@ -236,7 +246,7 @@ std::optional<Plan> SwingPlanner::planNear(const ThrowRequest& request,
                                            const AtlasThrow& start,
                                            Shoulder shoulder) const {
   const model::Target& target = request.target;
-  const AtlasThrow near = start.through(target);
+  const AtlasThrow near = start.through(target, config_.arm.gravity);
   SwingTask task = taskFor(request, shoulder);
   task.aim = {near.aim.dot(target.rightAxis()), near.aim.dot(target.upAxis())};
   SwingSolution solution;
@@ -265,10 +275,11 @@ std::optional<Plan> SwingPlanner::planNear(const ThrowRequest& request,
       return {};
     const Eigen::Vector2d miss = prediction->landing.landing;
     if (miss.norm() > config_.landing_tolerance) {
+      departs_alike = departs_alike && (round > 0 || miss.norm() < kAlikeMiss);
       task.aim -= miss;
       continue;
     }
-    if (-target.n_WTarget.dot(prediction->landing.state.v_WBall.normalized()) < kLeastSteepness)
+    if (steepness(*prediction, target) < kLeastSteepness)
       return {};
     const LimitUse use = checkLimits(arm_, motion.trajectory);
     if (!use.violation)

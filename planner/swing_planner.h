@@ -17,9 +17,12 @@ namespace fastball::planner {
 /// their parameters by Eq. (15), release by Eqs. (24) and (25).
 class SwingPlanner {
  public:
-  static constexpr double kApproachPrice = 0.1;  ///< [m/s per s], what a second of approach is worth
+  static constexpr double kApproachPrice =
+      0.1;  ///< [m/s per s], what a second of approach is worth
 
-  SwingPlanner(const PlannerConfig& config, const model::Arm& arm, const ReleasePredictor& predictor);
+  SwingPlanner(const PlannerConfig& config,
+               const model::Arm& arm,
+               const ReleasePredictor& predictor);
 
   /// The fastest throw found, or what hinders it.
   PlanResult plan(const ThrowRequest& request, const std::vector<Shoulder>& shoulders) const;

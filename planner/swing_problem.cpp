@@ -214,10 +214,11 @@ SwingProblem::Values SwingProblem::evaluate(const SwingVector& x) const {
   }
   const ReleaseConditions::Values release = release_.values(x, motion.curve().at(0));
   values.release_speed = release.speed;
-  values.inequalities.tail<2>() << release.hand_lead,
+  values.inequalities.tail<3>() << release.hand_lead,
       std::max(std::abs(x[kWristRoll]) / rollLimit(),
                std::abs(x[kWristFlexion]) / task_.settings.flexion_limit) -
-          1;
+          1,
+      release.grazing;
   values.equalities = release.equalities;
   values.q3_brake = motion.brakeStart().q[2];
   return values;
@@ -262,6 +263,7 @@ SwingProblem::Gradients SwingProblem::gradients(const SwingVector& x, const Valu
     result.inequalities(rows_.size() + 1, kWristFlexion) =
         std::copysign(1 / task_.settings.flexion_limit, flexion);
   }
+  result.inequalities.row(rows_.size() + 2) = release.grazing;
   result.equalities = release.equalities;
   return result;
 }
@@ -278,7 +280,9 @@ std::string SwingProblem::worstConstraint(const SwingVector& x) const {
   const int peaks = static_cast<int>(rows_.size());
   const std::string name = worst < peaks    ? SwingLimits::name(rows_[worst].limit)
                            : worst == peaks ? "Eq. (24): the hand must fall behind the ball"
-                                            : "the range of the wrist";
+                           : worst == peaks + 1
+                               ? "the range of the wrist"
+                               : "the least angle at which a ball may come through the ring";
   return fmt::format("breaks {} (by {:.2g} of it)", name, violation);
 }
 

@@ -27,7 +27,8 @@ class SwingProblem {
   };
   struct Values {
     double release_speed = 0;  ///< [m/s]
-    /// Peaks in the order of rows(), then Eq. (24), then how much of the wrist's range is exceeded.
+    /// Peaks in the order of rows(), then Eq. (24), then how much of the wrist's range is exceeded, then
+    /// how much too flatly the ball meets the ring.
     Eigen::VectorXd inequalities;
     Eigen::Matrix<double, kEqualities, 1> equalities;
     std::vector<Peak> peaks;
@@ -66,7 +67,7 @@ class SwingProblem {
   const std::vector<Row>& rows() const { return rows_; }
   /// Times [s] from the release at which the limits are evaluated before the peaks are looked for.
   const std::vector<double>& grid() const { return grid_; }
-  int inequalityCount() const { return static_cast<int>(rows_.size()) + 2; }
+  int inequalityCount() const { return static_cast<int>(rows_.size()) + 3; }
   /// How many of the equalities hold for the task.
   int equalityCount() const {
     return task_.must_land ? kEqualities : ReleaseConditions::kDirectionEqualities;

@@ -8,6 +8,7 @@
 #include "model/hand.h"
 #include "model/target.h"
 #include "planner/follow_through.h"
+#include "planner/plan.h"
 
 namespace fastball::planner {
 
@@ -40,7 +41,9 @@ struct SwingTask {
   Eigen::Vector2d aim = Eigen::Vector2d::Zero();  ///< [m], plane coordinates of the landing
   SwingSettings settings;
   double limit_factor = 1;  ///< the share of speed and torque limits that may be used
-  bool must_land = true;    ///< false: fastest throw of all, wherever it goes
+  /// Sine of the angle at which the ball comes through the ring, at least: what is asked, and a little for what the fingers change.
+  double steepness = kLeastSteepness + 0.005;
+  bool must_land = true;  ///< false: fastest throw of all, wherever it goes
   double grid_density =
       1;  ///< times as many grid points as usual, on which the peaks of the limits are looked for
   std::bitset<32> fixed;  ///< variables (SwingVariable) that keep their value

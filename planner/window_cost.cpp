@@ -17,12 +17,18 @@ constexpr double kReserve = 0.002;    // of a limit, kept for what happens betwe
 constexpr double kErrorScale = 0.05;  // [m], a landing so far off counts 1
 constexpr double kPaceWeight =
     0.45;  // a push of 20 m/s^2 counts 1: it is pace * dv/dT, and dv/dT is about 9 m/s^2
-constexpr double kGrazing = 0.35;    // sine of the least angle between flight and ring
 constexpr double kOutOfReach = 1e8;  // of the sum, where the arm cannot follow
 constexpr double kUnreachable = 10;  // violation there
-constexpr int kTimeToGo = 4, kPace = 8;
 
 using ByWindowRow = Eigen::Matrix<double, 1, kWindowParameters>;
+
+/// Of the variables that the problem leaves free.
+WindowVector scaleOf(const WindowProblem& problem) {
+  WindowVector scale = windowBounds().scale;
+  if (problem.free_flight)
+    scale.segment<2>(kPace).setZero();
+  return scale;
+}
 
 double square(double x) {
   return x * x;
@@ -94,7 +100,7 @@ void WindowCost::Sum::add(double row, const Slope& slope) {
   value += row * row;
   if (!with_slopes)
     return;
-  const WindowVector by_u = slope.transpose().cwiseProduct(windowBounds().scale);
+  const WindowVector by_u = slope.transpose().cwiseProduct(scale);
   half_gradient += row * by_u;
   half_hessian.selfadjointView<Eigen::Lower>().rankUpdate(by_u);
 }
@@ -109,6 +115,7 @@ WindowCost::Sum WindowCost::at(const WindowVector& v, bool with_slopes) {
   ++evaluations_;
   Sum sum;
   sum.with_slopes = with_slopes;
+  sum.scale = scaleOf(problem_);
   violation_ = kUnreachable;
   motion_ = {};
   addBounds(v, sum);
@@ -203,7 +210,7 @@ void WindowCost::addArrival(Sum& sum) {
   const model::FlightDerivatives flight = model::flyWithDerivatives(
       motion_.ball.back(), motion_.time_to_go, task.drag_per_metre, task.gravity);
   const Eigen::Vector3d& v_land = flight.state.v_WBall;
-  const double over = kGrazing + problem_.n_WTarget.dot(v_land.normalized());
+  const double over = kLeastSteepness + problem_.n_WTarget.dot(v_land.normalized());
   violation_ = std::max(violation_, over);
   if (!(over > 0))
     return;

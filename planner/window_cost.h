@@ -22,6 +22,7 @@ class WindowCost {
   /// The sum with its gradient and Gauss's approximation of half its Hessian (lower triangle), by x / scale.
   struct Sum {
     bool with_slopes = false;
+    WindowVector scale = WindowVector::Ones();  ///< of the variables; 0: one that is held
     double value = 0;
     WindowVector half_gradient = WindowVector::Zero();
     Eigen::Matrix<double, kWindowVariables, kWindowVariables> half_hessian =

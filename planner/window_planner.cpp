@@ -22,6 +22,8 @@ constexpr double kRangeReserve = 0.01;  // [rad]
 constexpr double kCorrected = 0.997;
 // Of a limit, by which a correction may miss that.
 constexpr double kNearlyInside = 0.004;
+// [m], so far off lands a throw whose aim and departure are interpolated, if its neighbours are alike.
+constexpr double kAlikeMiss = 3e-3;
 // [m/s^2], below which a window is tried as a free flight.
 constexpr double kNearlyFree = 5;
 
@@ -106,10 +108,8 @@ std::optional<WindowSolution> WindowPlanner::solveFrom(const ThrowRequest& reque
   if (solution.residual < kNearlyFree) {
     problem.free_flight = true;
     const WindowSolution free = solveWindowThrow(problem, solution.x, max_evaluations);
-    if (free.feasible) {
+    if (free.feasible)
       solution = free;
-      solution.x.window.pace.setZero();
-    }
   }
   if (!solution.feasible)
     return {};
@@ -205,7 +205,7 @@ std::optional<WindowPlanner::Settled> WindowPlanner::settle(const ThrowRequest& 
 std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
                                             const AtlasThrow& start) const {
   const model::Target& target = request.target;
-  const AtlasThrow near = start.through(target);
+  const AtlasThrow near = start.through(target, config_.arm.gravity);
   WindowProblem problem = problemFor(request, kindOf(near.window));
   WindowThrow x = fromVector(near.x, near.window);
   problem.free_flight = x.window.pace.isZero();
@@ -217,9 +217,11 @@ std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
     if (!motion)
       return {};
     const WristAngles wrist = wristOf(*motion);
-    auto prediction = predictByDeparture(config_, arm_, departure, *motion, wrist, target,
-                                         motion->t_zero);
+    auto prediction =
+        predictByDeparture(config_, arm_, departure, *motion, wrist, target, motion->t_zero);
     if (prediction && !landsRight(*prediction)) {
+      departs_alike =
+          departs_alike && (round > 0 || prediction->landing.landing.norm() < kAlikeMiss);
       correctAim(target, prediction->landing.landing, problem.task.p_WGoal);
       continue;
     }

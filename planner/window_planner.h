@@ -78,7 +78,8 @@ class WindowPlanner {
 
   const PlannerConfig& config_;
   const model::Arm& arm_;
-  model::Arm cautious_arm_;  ///< with more room to its stops, for what happens between the optimiser's samples
+  model::Arm
+      cautious_arm_;  ///< with more room to its stops, for what happens between the optimiser's samples
   model::Hand hand_;
   const ReleasePredictor& predictor_;
   std::vector<WindowKind> kinds_;

@@ -10,9 +10,9 @@ namespace {
 // Marquardt's damping of the scaled variables.
 constexpr double kFirstDamping = 1, kLargestDamping = 1e8;
 constexpr double kCorrectionDamping = 0.05;  // a step or two shall do
-constexpr double kTolerance = 2e-3;  // of a limit, by which a solution may exceed its share
-constexpr double kSettled = 1e-4;    // of the cost: a smaller gain is no progress
-constexpr int kSmallGains = 4;       // in a row, after which it is enough
+constexpr double kTolerance = 2e-3;          // of a limit, by which a solution may exceed its share
+constexpr double kSettled = 1e-4;            // of the cost: a smaller gain is no progress
+constexpr int kSmallGains = 4;               // in a row, after which it is enough
 
 WindowSolution solutionAt(const WindowVector& x, WindowCost& cost, double length) {
   WindowSolution solution;
@@ -39,9 +39,9 @@ WindowVector toVector(const WindowThrow& x) {
 WindowThrow fromVector(const WindowVector& v, double length) {
   WindowThrow x;
   x.window.q_start = v.head<4>();
-  x.window.time_to_go = v[4];
+  x.window.time_to_go = v[kTimeToGo];
   x.window.joint3 = v.segment<3>(5);
-  x.window.pace = v.segment<2>(8);
+  x.window.pace = v.segment<2>(kPace);
   x.window.length = length;
   x.run_up = v.segment<4>(10);
   x.brake = v.segment<4>(14);
@@ -62,8 +62,9 @@ WindowSolution minimise(const WindowProblem& problem,
                         int max_evaluations,
                         bool until_feasible) {
   WindowCost cost(problem);
-  const WindowVector& scale = windowBounds().scale;
   WindowVector x = toVector(start);
+  if (problem.free_flight)
+    x.segment<2>(kPace).setZero();
   WindowCost::Sum sum = cost.at(x, true);
   bool feasible = cost.violation() <= kTolerance;
   double damping = until_feasible ? kCorrectionDamping : kFirstDamping;
@@ -77,7 +78,7 @@ WindowSolution minimise(const WindowProblem& problem,
     const WindowVector step =
         -damped.selfadjointView<Eigen::Lower>().ldlt().solve(sum.half_gradient);
     const double promised = -step.dot(2 * sum.half_gradient + hessian * step);
-    const WindowVector next = x + step.cwiseProduct(scale);
+    const WindowVector next = x + step.cwiseProduct(sum.scale);
     const double gain = sum.value - cost.at(next, false).value;
     if (!(gain > 0)) {
       damping *= 5;

@@ -11,8 +11,10 @@ namespace fastball::launch {
 
 /// How the joints of a throw move in time.
 enum class Timing {
-  kKineticChain,  ///< base functions sin, exp, sin of Eq. (12) on the analogous model, joint 2 of the arm held
-  kInPhaseHeld,  ///< joints 1, 3, 4 of the arm by one sine: the same start, end and shape; joint 2 held
+  /// Base functions sin, exp, sin of Eq. (12) on the analogous model, joint 2 of the arm held.
+  kKineticChain,
+  /// Joints 1, 3, 4 of the arm by one sine: the same start, end and shape; joint 2 held.
+  kInPhaseHeld,
   kInPhaseFree  ///< all four joints by one sine
 };
 

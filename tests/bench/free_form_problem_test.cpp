@@ -88,12 +88,12 @@ TEST_P(FreeFormProblems, GradientsOfTheRelease) {
     const Eigen::VectorXd x = variables(problem);
     const ReleaseRows rows = problem.release(x);
     Eigen::MatrixXd slopes(6, ReleaseRows::kBy);
-    slopes << rows.equal_slope, rows.speed_slope, rows.from_behind_slope;
+    slopes << rows.equal_slope, rows.speed_slope, rows.grazing_slope;
     expectSlope(
         [&](const Eigen::VectorXd& at) {
           const ReleaseRows there = problem.release(at);
           Eigen::VectorXd values(6);
-          values << there.equal, there.speed, there.from_behind;
+          values << there.equal, there.speed, there.grazing;
           return values;
         },
         x, problem.releaseGradient(x, slopes), 1e-6);

@@ -93,12 +93,12 @@ TEST(ReleaseRows, HaveTheirDerivatives) {
     x << motion.q, motion.qd, throws.uniform(0.1, 1.5);
     const ReleaseRows rows = rowsAt(x);
     Eigen::MatrixXd derivative(6, 9);
-    derivative << rows.equal_slope, rows.speed_slope, rows.from_behind_slope;
+    derivative << rows.equal_slope, rows.speed_slope, rows.grazing_slope;
     expectSlope(
         [&](const Eigen::VectorXd& at) {
           const ReleaseRows there = rowsAt(at);
           Eigen::VectorXd values(6);
-          values << there.equal, there.speed, there.from_behind;
+          values << there.equal, there.speed, there.grazing;
           return values;
         },
         x, derivative, 1e-6);

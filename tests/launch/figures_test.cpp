@@ -163,6 +163,24 @@ TEST(LevelSwing, SpeedLimitsBindWithAllTheTorqueAndTorqueWithATenth) {
   EXPECT_LT(tenth.release_speed, all.release_speed - 0.5);
 }
 
+TEST(LevelSwing, TorqueOfJoint2TurnsWhereOmega2DoesAndJoint3NeedsLittle) {
+  const model::LevelSwingModel model(wamParameters());
+  const SwingLimits limits = levelSwingLimits(experiment().arm, {4, 6, 7}, 1);
+  const BaseSwing swing = fastestLevelSwing(model, limits, 8, 1).swing;
+  const auto torque = [&](double t) {
+    const model::SwingAngles s = swing.at(t);
+    return model.inverseDynamics(s.q, s.qd, s.qdd);
+  };
+  const double turn = swing.q2.t_switch;
+  EXPECT_GT(torque(turn - 1e-6)[1], 5);
+  EXPECT_LT(torque(turn + 1e-6)[1], -5);
+  EXPECT_GT(torque(swing.q1.start() + 1e-6)[0], 5) << "at once";
+  for (int i = 0; i <= 1000; ++i) {
+    const double t = swing.start() + (swing.end() - swing.start()) * i / 1000;
+    EXPECT_LT(std::abs(torque(t)[2]), limits.tau_max[2] / 3) << t;
+  }
+}
+
 TEST(SwingSpeeds, AreThoseFromWhichTheArmsWereMade) {
   const model::Arm arm = loadedArm();
   std::mt19937 random(2);
@@ -197,6 +215,15 @@ TEST(TorqueBudget, MoreTorqueAndAFreeShoulderAreNeverSlower) {
       EXPECT_GE(chain[i].release_speed, chain[i - 1].release_speed - 1e-6);
     }
   }
+}
+
+TEST(TorqueBudget, TheChainPaysWhereTorqueIsScarceAndNotWhereSpeedBinds) {
+  const BudgetSettings settings{experiment().hand.p_HBall, 12, 0.3, 0.3, -0.9};
+  const auto held = fastestByBudget(loadedArm(), settings, Timing::kInPhaseHeld, {0.2, 1}, 12, 1),
+             chain = fastestByBudget(loadedArm(), settings, Timing::kKineticChain, {0.2, 1}, 12, 1);
+  EXPECT_GT(chain[0].release_speed, 1.03 * held[0].release_speed);
+  EXPECT_LT(chain[1].release_speed, held[1].release_speed);
+  EXPECT_GT(chain[1].release_speed, 0.95 * held[1].release_speed);
 }
 
 /// Largest distance [m] of the end effector from its planned place.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "model/ball_flight.h"
 #include "tests/planner/default_throw.h"
@@ -163,6 +164,27 @@ TEST_F(PlannedThrow, ExistsForNetsElsewhereAndOtherSeeds) {
     EXPECT_LE(landingOf(plan.release, request.target, example_.config.ball.dragPerMetre()).norm(),
               1e-3);
   }
+}
+
+TEST_F(PlannedThrow, HoldsEveryLimitAndLandsForRandomRequests) {
+  std::mt19937 engine(6);
+  std::uniform_real_distribution<double> distance(2, 4), height(-0.8, 0.8), azimuth(-1, 1);
+  int planned = 0;
+  for (int i = 0; i < 25; ++i) {
+    const double d = distance(engine), a = azimuth(engine);
+    const ThrowRequest request =
+        example_.requestTo(d * std::cos(a), d * std::sin(a), height(engine), i);
+    SCOPED_TRACE(testing::PrintToString(request.target.p_WTarget.transpose()));
+    const PlanResult result = planner_.plan(request);
+    if (std::holds_alternative<Refusal>(result))
+      continue;
+    ++planned;
+    const Plan& plan = std::get<Plan>(result);
+    expectInsideLimits(example_.config, plan);
+    EXPECT_LE(landingOf(plan.release, request.target, example_.config.ball.dragPerMetre()).norm(),
+              1e-3);
+  }
+  EXPECT_GE(planned, 20);
 }
 
 TEST_F(PlannedThrow, IsTheSameEveryTime) {

@@ -60,7 +60,7 @@ TEST_P(RobustPlan, BallAsTheFingersLetItGoLandsOnTheTarget) {
 TEST_P(RobustPlan, ResidualAccelerationIsWhatThePlanSays) {
   const bool is_90v = std::string(GetParam()) == "wam4-90v.yaml";
   // With the speed limits of 48 V no window of this length is a free flight.
-  EXPECT_LT(plan_.residual_acceleration, is_90v ? 1.5 : 35);
+  EXPECT_LT(plan_.residual_acceleration, is_90v ? 0.3 : 35);
   const double h = 1e-4;
   for (double t = plan_.release_window[0] + h; t < plan_.release_window[1]; t += 1e-3) {
     const Eigen::Vector3d a = (held(t + h).v_WBall - held(t - h).v_WBall) / (2 * h);
