@@ -1,7 +1,7 @@
 #include "bench/plan_cost.h"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <functional>
 
 #include "bench/dense_swing.h"
@@ -58,18 +58,17 @@ int samplesOf(const SwingTask& task, const SwingSolution& solution) {
                                         [begin](double t) { return t >= begin; }));
 }
 
-/// Mean time, and the fastest solution.
+/// Mean CPU time [s], which other processes do not change, and the fastest solution.
 double solveAll(const std::vector<Start>& starts,
                 const std::function<SwingSolution(const Start&)>& solve,
                 SwingSolution& best) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
+  const std::clock_t begin = std::clock();
   for (const Start& start : starts) {
     const SwingSolution solution = solve(start);
     if (solution.violation < kSolved && solution.release_speed > best.release_speed)
       best = solution;
   }
-  return std::chrono::duration<double>(Clock::now() - begin).count() /
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
          static_cast<double>(starts.size());
 }
 
@@ -119,29 +118,27 @@ std::vector<SolveCost> costBySamples() {
   return costs;
 }
 
-std::vector<SolveCost> costByParameters() {
+std::vector<SolveCost> costByParameters(planner::Shoulder shoulder) {
   using namespace planner;
   const DefaultSwing swing;
+  SwingTask task = swing.task(shoulder);
+  SwingSolution solved;
+  solveAll(
+      storedStarts(shoulder, 0),
+      [&](const Start& s) {
+        return optimiseSwing(task, s.x, s.elbow_sign, swing.config.max_evaluations);
+      },
+      solved);
+  task.target.p_WTarget.z() += 0.1;
   const std::vector<std::vector<SwingVariable>> fixed{
       {kOmega1, kOmega2, kOmega3, kPhi1, kSwitch2, kPhi3}, {kOmega1, kOmega2, kOmega3}, {}};
   std::vector<SolveCost> costs;
-  for (const Shoulder shoulder : {Shoulder::kHeld, Shoulder::kFree}) {
-    SwingTask task = swing.task(shoulder);
-    SwingSolution solved;
-    solveAll(
-        storedStarts(shoulder, 0),
-        [&](const Start& s) {
-          return optimiseSwing(task, s.x, s.elbow_sign, swing.config.max_evaluations);
-        },
-        solved);
-    task.target.p_WTarget.z() += 0.1;
-    for (const auto& variables : fixed) {
-      task.fixed.reset();
-      for (const SwingVariable variable : variables)
-        task.fixed.set(variable);
-      costs.push_back(measure(task, {{"neighbour", solved.x, solved.elbow_sign}},
-                              swing.config.max_evaluations, 1));
-    }
+  for (const auto& variables : fixed) {
+    task.fixed.reset();
+    for (const SwingVariable variable : variables)
+      task.fixed.set(variable);
+    costs.push_back(measure(task, {{"neighbour", solved.x, solved.elbow_sign}},
+                            swing.config.max_evaluations, 1));
   }
   return costs;
 }

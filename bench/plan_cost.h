@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "planner/swing_task.h"
+
 namespace fastball::bench {
 
 /// What solving a swing costs: the planner's way and the plain one (bench/dense_swing.h).
@@ -19,7 +21,7 @@ struct SolveCost {
 SolveCost costOfDefaultThrow();
 /// The same with fewer and more samples.
 std::vector<SolveCost> costBySamples();
-/// A throw 0.1 m beside a solved one, with some of the parameters fixed to all of them free and joint 2 as well.
-std::vector<SolveCost> costByParameters();
+/// A throw 0.1 m beside a solved one, with some of the parameters fixed to all of them free.
+std::vector<SolveCost> costByParameters(planner::Shoulder shoulder);
 
 }  // namespace fastball::bench

@@ -73,6 +73,7 @@ const std::vector<Figure>& allFigures() {
        drawPlannedSwing},
       {"fig11", "The planned throw on the simulated arm (Fig. 11)", drawTracking},
       {"fig_budget", "What the kinetic chain is worth", drawTorqueBudget},
+      {"fig_cost", "What planning costs", drawPlanCost},
   };
   return figures;
 }

@@ -43,5 +43,6 @@ std::string drawLevelSwing(const FigureTask& task);
 std::string drawPlannedSwing(const FigureTask& task);
 std::string drawTracking(const FigureTask& task);
 std::string drawTorqueBudget(const FigureTask& task);
+std::string drawPlanCost(const FigureTask& task);
 
 }  // namespace fastball::launch
