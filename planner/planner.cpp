@@ -146,9 +146,14 @@ PlanResult Planner::plan(const ThrowRequest& request) const {
 PlanResult Planner::planAnew(const ThrowRequest& request) const {
   if (request.strategy != "robust")
     return swings_.plan(request, config_.shoulders);
-  if (std::optional<Plan> plan = windows_.plan(request))
+  if (std::optional<Plan> plan = windows_.plan(request, false))
     return *std::move(plan);
-  return swings_.plan(request, {Shoulder::kFree});
+  PlanResult swing = swings_.plan(request, {Shoulder::kFree});
+  if (std::holds_alternative<Refusal>(swing)) {
+    if (std::optional<Plan> plan = windows_.plan(request, true))
+      return *std::move(plan);
+  }
+  return swing;
 }
 
 std::optional<Plan> Planner::nearestPlan(const ThrowRequest& request,

@@ -13,8 +13,12 @@ namespace fastball::planner {
 namespace {
 
 constexpr int kAimRounds = 8;
-// Evaluations of an optimisation from a stored throw, from one that is nearly right, and from one of the atlas.
-constexpr int kFarEvaluations = 150, kNearEvaluations = 30, kAtlasEvaluations = 12;
+// Every stored throw has so many looks before the best few go on; none of them with a cost above `kHopeless` comes inside the limits.
+constexpr int kFirstLook = 20;
+constexpr std::size_t kContenders = 3;
+constexpr double kHopeless = 5e3;
+// Evaluations of an optimisation from one of those, from one that is nearly right, and from one of the atlas.
+constexpr int kFarEvaluations = 130, kNearEvaluations = 30, kAtlasEvaluations = 12;
 // Of the limits, kept when a throw must be made a little slower because they were exceeded between the optimiser's samples.
 constexpr double kTightened = 0.999;
 constexpr double kRangeReserve = 0.01;  // [rad]
@@ -117,13 +121,24 @@ std::optional<WindowSolution> WindowPlanner::solveFrom(const ThrowRequest& reque
 }
 
 std::optional<WindowSolution> WindowPlanner::solve(const ThrowRequest& request,
-                                                   const WindowKind& kind) const {
+                                                   const WindowKind& kind,
+                                                   bool thoroughly) const {
   const Eigen::Vector3d& p = request.target.p_WTarget;
   const WindowProblem problem = problemFor(request, kind);
+  std::vector<WindowSolution> contenders;
+  for (const WindowThrow& start : windowStarts(std::atan2(p.y(), p.x()), kind.length))
+    contenders.push_back(solveWindowThrow(problem, start, kFirstLook));
+  std::stable_sort(
+      contenders.begin(), contenders.end(),
+      [](const WindowSolution& a, const WindowSolution& b) { return a.cost < b.cost; });
+  if (!thoroughly)
+    contenders.resize(std::min(contenders.size(), kContenders));
   std::optional<WindowSolution> best;
   double best_worth = 0;
-  for (const WindowThrow& start : windowStarts(std::atan2(p.y(), p.x()), kind.length)) {
-    const auto solution = solveFrom(request, kind, start, p, kFarEvaluations);
+  for (const WindowSolution& contender : contenders) {
+    if (!thoroughly && contender.cost > kHopeless)
+      break;
+    const auto solution = solveFrom(request, kind, contender.x, p, kFarEvaluations);
     if (!solution)
       continue;
     const auto motion = motionOf(problem, request.q_arm, solution->x);
@@ -284,9 +299,9 @@ Plan WindowPlanner::assemble(const ThrowRequest& request, const Settled& settled
   return plan;
 }
 
-std::optional<Plan> WindowPlanner::plan(const ThrowRequest& request) const {
+std::optional<Plan> WindowPlanner::plan(const ThrowRequest& request, bool thoroughly) const {
   for (const WindowKind& kind : kinds_) {
-    const std::optional<WindowSolution> solution = solve(request, kind);
+    const std::optional<WindowSolution> solution = solve(request, kind, thoroughly);
     if (!solution)
       continue;
     if (const auto settled = settle(request, kind, solution->x))

@@ -33,14 +33,17 @@ class WindowPlanner {
 
   /// The best throw through the first kind of window for which there is one inside all limits; nothing if there is none for
   /// any.
-  std::optional<Plan> plan(const ThrowRequest& request) const;
+  /// @param thoroughly from every stored start; else only from those that look best at first.
+  std::optional<Plan> plan(const ThrowRequest& request, bool thoroughly) const;
 
   /// A throw that lies near a known one for a target nearby; nothing if a few steps do not lead to it.
   /// @param near seen from the target's azimuth.
   std::optional<Plan> planNear(const ThrowRequest& request, const AtlasThrow& near) const;
 
-  /// The best throw for a kind of window from all stored starts.
-  std::optional<WindowSolution> solve(const ThrowRequest& request, const WindowKind& kind) const;
+  /// The best throw for a kind of window.
+  std::optional<WindowSolution> solve(const ThrowRequest& request,
+                                      const WindowKind& kind,
+                                      bool thoroughly) const;
 
   /// The best throw near one start, for a target at `p_WGoal` [m] as the ball in the hand is aimed; nothing outside the limits.
   std::optional<WindowSolution> solveFrom(const ThrowRequest& request,
