@@ -10,7 +10,8 @@ namespace fastball::launch {
 /// What `fastball run` shows: lines on stdout, and on a terminal one line that is written over and over while a throw goes on.
 class Progress {
  public:
-  Progress();
+  /// @param silent: says nothing at all.
+  explicit Progress(bool silent = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -21,6 +22,7 @@ class Progress {
 
  private:
   void clearStatus();
+  bool silent_;
   bool terminal_;
   bool shown_ = false;
   int64_t next_us_ = INT64_MIN;

@@ -64,7 +64,7 @@ TrackedThrow trackedThrow(const std::string& config, const std::string& law) {
   const RunSetup setup = prepareRun(options);
   TrackedThrow tracked;
   RunResult result;
-  Progress progress;
+  Progress progress(true);
   runInOneProcess(setup, progress, result, [&](messaging::Endpoint& endpoint) {
     endpoint.subscribe<swing_plan_t>(messaging::kSwingPlan,
                                      [&](const auto& m) { tracked.plan = m; });
