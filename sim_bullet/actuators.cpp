@@ -28,22 +28,23 @@ double withinSpeed(double tau, double qd, double speed_max) {
 
 }  // namespace
 
-HandServo::HandServo(const model::HandParameters& hand, double thumb_delay, double dt)
+HandServo::HandServo(const model::HandParameters& hand, const FingerDelays& delays, double dt)
     : speed_max_(hand.joint_speed_max),
-      lag_gain_(hand.actuator_lag > 0 ? 1 - std::exp(-dt / hand.actuator_lag) : 1),
-      delay_line_(static_cast<std::size_t>(std::lround(thumb_delay / dt)),
-                  Eigen::Vector2d::Zero()) {
+      lag_gain_(hand.actuator_lag > 0 ? 1 - std::exp(-dt / hand.actuator_lag) : 1) {
   for (int i = 0; i < model::kHandJoints; ++i)
     tau_max_[i] = isWrist(i) ? hand.wrist_torque_max : hand.finger_torque_max;
+  for (int i = 0; i < model::kFingers; ++i)
+    delay_steps_[i] = static_cast<std::size_t>(std::lround(delays[i] / dt));
+  underway_.resize(*std::max_element(delay_steps_.begin(), delay_steps_.end()) + 1);
 }
 
-const HandVector& HandServo::step(const HandCommand& command,
+const HandVector& HandServo::step(const HandCommand& now,
                                   const HandVector& q,
                                   const HandVector& qd) {
+  const HandCommand& command = arrived(now);
   HandVector tau = command.tau + command.kp.cwiseProduct(command.q - q) +
                    command.kd.cwiseProduct(command.qd - qd);
   tau = tau.cwiseMax(-tau_max_).cwiseMin(tau_max_);
-  delayThumb(&tau);
   lagged_ += lag_gain_ * (tau - lagged_);
   applied_ = lagged_;
   for (int i = 0; i < model::kHandJoints; ++i)
@@ -52,15 +53,28 @@ const HandVector& HandServo::step(const HandCommand& command,
   return applied_;
 }
 
-void HandServo::delayThumb(HandVector* tau) {
-  if (delay_line_.empty())
-    return;
-  Eigen::Vector2d& slot = delay_line_[oldest_];
-  const Eigen::Vector2d arrived = slot;
-  slot = Eigen::Vector2d((*tau)[model::kProximalThumb], (*tau)[model::kDistalThumb]);
-  (*tau)[model::kProximalThumb] = arrived[0];
-  (*tau)[model::kDistalThumb] = arrived[1];
-  oldest_ = (oldest_ + 1) % delay_line_.size();
+const HandCommand& HandServo::arrived(const HandCommand& command) {
+  if (underway_.size() == 1)
+    return command;
+  if (!started_)  // as if it had always been the command
+    std::fill(underway_.begin(), underway_.end(), command);
+  started_ = true;
+  newest_ = (newest_ + 1) % underway_.size();
+  underway_[newest_] = command;
+  arrived_ = command;
+  for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
+    const std::size_t size = underway_.size();
+    const HandCommand& old = underway_[(newest_ + size - delay_steps_[finger]) % size];
+    const int proximal = model::Hand::proximalJoint(finger);
+    const int first = finger == model::kThumb ? proximal : proximal - 1;
+    const int joints = proximal + 2 - first;
+    arrived_.q.segment(first, joints) = old.q.segment(first, joints);
+    arrived_.qd.segment(first, joints) = old.qd.segment(first, joints);
+    arrived_.tau.segment(first, joints) = old.tau.segment(first, joints);
+    arrived_.kp.segment(first, joints) = old.kp.segment(first, joints);
+    arrived_.kd.segment(first, joints) = old.kd.segment(first, joints);
+  }
+  return arrived_;
 }
 
 double stopTorque(const StopSettings& stop, double low, double high, double q, double qd) {

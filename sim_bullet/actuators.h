@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "model/arm.h"
@@ -19,13 +20,16 @@ struct HandCommand {
   model::HandVector kd = model::HandVector::Zero();   ///< [N m s/rad]
 };
 
-/// The hand's drives: a servo faster than the control tick, its torque limits, the first-order lag from command to torque, and
-/// the speed above which a finger's drive can push no further.
+/// Dead times [s] from a command to the servos of finger A, thumb and finger B.
+using FingerDelays = std::array<double, model::kFingers>;
+
+/// The hand's drives: the dead time until a command arrives, a servo faster than the control tick, its torque limits, the
+/// first-order lag from command to torque, and the speed above which a finger's drive can push no further.
 class HandServo {
  public:
-  /// @param thumb_delay extra dead time [s] of the thumb's torque.
+  /// @param delays of the fingers' commands; the wrist's arrive at once. The servo itself is not delayed.
   /// @param dt physics step [s].
-  HandServo(const model::HandParameters& hand, double thumb_delay, double dt);
+  HandServo(const model::HandParameters& hand, const FingerDelays& delays, double dt);
 
   /// Torques [N m] for the coming step.
   const model::HandVector& step(const HandCommand& command,
@@ -33,15 +37,18 @@ class HandServo {
                                 const model::HandVector& qd);
 
  private:
-  void delayThumb(model::HandVector* tau);
+  const HandCommand& arrived(const HandCommand& command);
 
   model::HandVector tau_max_;
   double speed_max_;
   double lag_gain_;  ///< share of the way to the commanded torque that the drive goes in a step
   model::HandVector lagged_ = model::HandVector::Zero();
   model::HandVector applied_ = model::HandVector::Zero();
-  std::vector<Eigen::Vector2d> delay_line_;  ///< thumb torques on their way, a ring
-  std::size_t oldest_ = 0;
+  std::array<std::size_t, model::kFingers> delay_steps_{};
+  std::vector<HandCommand> underway_;  ///< a ring of the commands of the last steps
+  std::size_t newest_ = 0;
+  bool started_ = false;
+  HandCommand arrived_;
 };
 
 /// Torque [N m] of a joint's stops: none between them; past one a spring and a damper, which push back but never hold.

@@ -48,6 +48,7 @@ Uncertainty loadUncertainty(const std::string& path) {
   result.drag_rel_sd = optionalNumber(file, "drag_rel_sd", 0.3);
   result.encoder_bias_sd = optionalNumber(file, "encoder_bias_sd", 0.02);
   result.opening_delay_sd = optionalNumber(file, "opening_delay_sd", 0.02);
+  result.finger_delay_sd = optionalNumber(file, "finger_delay_sd", 0.01);
   result.youngs_modulus = optionalRange(file, "youngs_modulus", {6e4, 1e7});
   result.friction = optionalRange(file, "friction", {0.05, 3});
   file.finish();
@@ -64,7 +65,7 @@ SceneErrors drawErrors(const Uncertainty& uncertainty,
     errors.ball_offset_H[i] = draw.normal(uncertainty.ball_offset_sd);
   for (int i = 0; i < model::kArmJoints; ++i)
     errors.encoder_bias[i] = draw.normal(uncertainty.encoder_bias_sd);
-  errors.thumb_delay = std::abs(draw.normal(uncertainty.opening_delay_sd));
+  errors.finger_delay.fill(std::abs(draw.normal(uncertainty.opening_delay_sd)));
   errors.ball.mass *= 1 + draw.normal(uncertainty.mass_rel_sd);
   errors.ball.drag_coefficient *= 1 + draw.normal(uncertainty.drag_rel_sd);
   const double modulus = draw.between(0, 1);
@@ -77,6 +78,8 @@ SceneErrors drawErrors(const Uncertainty& uncertainty,
     const auto [low, high] = *uncertainty.friction;
     errors.ball.friction = low + (high - low) * friction;
   }
+  for (double& delay : errors.finger_delay)
+    delay += std::abs(draw.normal(uncertainty.finger_delay_sd));
   return errors;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,16 +9,19 @@
 #include "config/strict_yaml.h"
 #include "model/arm_parameters.h"
 #include "model/ball_parameters.h"
+#include "model/hand_parameters.h"
 
 namespace fastball::sim_bullet {
 
 /// What can be wrong in a throw, as an uncertainty file gives it; a key left out means no such error. sd: standard deviation.
 struct Uncertainty {
-  double ball_offset_sd = 0;    ///< [m], of the ball in the hand, each axis
-  double mass_rel_sd = 0;       ///< of the ball's mass, relative
-  double drag_rel_sd = 0;       ///< of its drag coefficient, relative
-  double encoder_bias_sd = 0;   ///< [rad], of each arm joint's reading
-  double opening_delay_sd = 0;  ///< [s], dead time of the thumb's torque: the magnitude of the draw
+  double ball_offset_sd = 0;   ///< [m], of the ball in the hand, each axis
+  double mass_rel_sd = 0;      ///< of the ball's mass, relative
+  double drag_rel_sd = 0;      ///< of its drag coefficient, relative
+  double encoder_bias_sd = 0;  ///< [rad], of each arm joint's reading
+  double opening_delay_sd =
+      0;  ///< [s], dead time of all fingers' commands: the magnitude of the draw
+  double finger_delay_sd = 0;  ///< [s], of each finger's beyond that: the magnitude of the draw
   std::optional<config::Range> youngs_modulus;  ///< [Pa], even on a logarithmic scale
   std::optional<config::Range> friction;        ///< Coulomb mu between finger and ball, even
 };
@@ -29,7 +33,7 @@ Uncertainty loadUncertainty(const std::string& path);
 struct SceneErrors {
   Eigen::Vector3d ball_offset_H = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector4d encoder_bias = Eigen::Vector4d::Zero();   ///< [rad]
-  double thumb_delay = 0;                                   ///< [s]
+  std::array<double, model::kFingers> finger_delay{};       ///< [s], of the commands
   model::BallParameters ball;                               ///< as it really is
 };
 

@@ -19,7 +19,7 @@ HandCommand torqueCommand(double tau) {
 }
 
 TEST(HandServo, TorqueFollowsWithTheDrivesLag) {
-  HandServo servo(experiment().hand, 0, kStep);
+  HandServo servo(experiment().hand, {}, kStep);
   const double lag = experiment().hand.actuator_lag;
   for (int k = 1; k <= 100; ++k) {
     const HandVector tau = servo.step(torqueCommand(0.5), kStill, kStill);
@@ -30,7 +30,7 @@ TEST(HandServo, TorqueFollowsWithTheDrivesLag) {
 TEST(HandServo, IsAPdWithFeedForward) {
   model::HandParameters hand = experiment().hand;
   hand.actuator_lag = 0;
-  HandServo servo(hand, 0, kStep);
+  HandServo servo(hand, {}, kStep);
   HandCommand command = torqueCommand(0.1);
   command.kp.setConstant(2);
   command.kd.setConstant(0.01);
@@ -41,7 +41,7 @@ TEST(HandServo, IsAPdWithFeedForward) {
 }
 
 TEST(HandServo, TorqueNeverExceedsItsLimit) {
-  HandServo servo(experiment().hand, 0, kStep);
+  HandServo servo(experiment().hand, {}, kStep);
   for (int k = 0; k < 300; ++k) {
     const HandVector tau = servo.step(torqueCommand(k % 2 == 0 ? 1e6 : -1e5), kStill, kStill);
     EXPECT_LE(tau.head<2>().cwiseAbs().maxCoeff(), experiment().hand.wrist_torque_max);
@@ -51,7 +51,7 @@ TEST(HandServo, TorqueNeverExceedsItsLimit) {
 
 TEST(HandServo, DrivesNoFingerBeyondItsSpeed) {
   const double speed = experiment().hand.joint_speed_max;
-  HandServo servo(experiment().hand, 0, kStep);
+  HandServo servo(experiment().hand, {}, kStep);
   HandVector tau;
   for (int k = 0; k < 100; ++k)
     tau = servo.step(torqueCommand(1), kStill, HandVector::Constant(speed));
@@ -60,18 +60,33 @@ TEST(HandServo, DrivesNoFingerBeyondItsSpeed) {
   EXPECT_GT(tau.tail<8>().minCoeff(), 0.9);
 }
 
-TEST(HandServo, OnlyTheThumbIsDelayed) {
+TEST(HandServo, CommandsArriveLateAtEachFingerOnly) {
   model::HandParameters hand = experiment().hand;
   hand.actuator_lag = 0;
-  const int delay = 25;
-  HandServo servo(hand, delay * kStep, kStep);
+  const int thumb = 25, finger_b = 7;
+  HandServo servo(hand, {0, thumb * kStep, finger_b * kStep}, kStep);
+  const auto sent = [](int k) { return 0.01 * std::max(k, 0); };
   for (int k = 0; k < 60; ++k) {
-    const HandVector tau = servo.step(torqueCommand(0.01 * k), kStill, kStill);
-    EXPECT_NEAR(tau[model::kProximalA], 0.01 * k, 1e-12);
-    const double expected = k < delay ? 0 : 0.01 * (k - delay);
-    EXPECT_NEAR(tau[model::kProximalThumb], expected, 1e-12);
-    EXPECT_NEAR(tau[model::kDistalThumb], expected, 1e-12);
+    const HandVector tau = servo.step(torqueCommand(sent(k)), kStill, kStill);
+    EXPECT_NEAR(tau[model::kWristRoll], sent(k), 1e-12);
+    EXPECT_NEAR(tau[model::kProximalA], sent(k), 1e-12);
+    EXPECT_NEAR(tau[model::kProximalThumb], sent(k - thumb), 1e-12);
+    EXPECT_NEAR(tau[model::kDistalThumb], sent(k - thumb), 1e-12);
+    EXPECT_NEAR(tau[model::kSpreadB], sent(k - finger_b), 1e-12);
+    EXPECT_NEAR(tau[model::kDistalB], sent(k - finger_b), 1e-12);
   }
+}
+
+TEST(HandServo, ADelayedCommandIsStillServedAtOnce) {
+  // The servo sits in the hand: a joint that is pushed away is held without the dead time.
+  model::HandParameters hand = experiment().hand;
+  hand.actuator_lag = 0;
+  HandServo servo(hand, {0.01, 0.01, 0.01}, kStep);
+  HandCommand command;
+  command.kp.setConstant(2);
+  servo.step(command, kStill, kStill);
+  EXPECT_NEAR(servo.step(command, HandVector::Constant(0.1), kStill)[model::kProximalThumb], -0.2,
+              1e-12);
 }
 
 TEST(StopTorque, PushesBackAndNeverHolds) {

@@ -67,7 +67,8 @@ TEST_F(UncertaintyFile, RefusesAbsurdValuesWithFileLineAndKey) {
       {"youngs_modulus: [1e6, 2e5]", "youngs_modulus"},
       {"friction: 0.8", "friction"},
       {"encoder_bias_sd: much", "encoder_bias_sd"},
-      {"opening_delay_sd: 1", "opening_delay_sd"}};
+      {"opening_delay_sd: 1", "opening_delay_sd"},
+      {"finger_delay_sd: 1", "finger_delay_sd"}};
   for (const auto& [line, key] : faults)
     EXPECT_THAT(faultIn("# errors\n" + line + "\n"),
                 AllOf(HasSubstr("errors.yaml:2"), HasSubstr("'" + key + "'")));
@@ -77,7 +78,7 @@ TEST(SceneErrors, NoFileNoErrors) {
   const SceneErrors errors = drawErrors({}, experiment().ball, 5);
   EXPECT_EQ(errors.ball_offset_H.norm(), 0);
   EXPECT_EQ(errors.encoder_bias.norm(), 0);
-  EXPECT_EQ(errors.thumb_delay, 0);
+  EXPECT_EQ(errors.finger_delay[model::kThumb], 0);
   EXPECT_EQ(errors.ball.mass, experiment().ball.mass);
   EXPECT_EQ(errors.ball.youngs_modulus, experiment().ball.youngs_modulus);
 }
