@@ -1,15 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
-#include "model/hand_parameters.h"
+#include "model/release_motion.h"
 
 namespace fastball::hand_server {
 
-using FingerForces =
-    std::array<double, model::kFingers>;  ///< [N], normal: finger A, thumb, finger B
+using model::FingerForces;
 
 /// Feels by the finger forces when the ball leaves the hand. A force is the mean over the tick before its state.
 class BallWatch {

@@ -38,7 +38,7 @@ HandController::HandController(const model::Arm& arm,
       hand_(hand),
       ball_(ball),
       config_(config),
-      q_open_(openPosture(hand, config.open_distance)) {}
+      q_open_(openPosture(hand, config.release.open_distance)) {}
 
 bool HandController::offerPlan(const HandPlan& plan) {
   if (next_ && next_->plan == plan) {
@@ -140,8 +140,8 @@ void HandController::beginScene(const HandSample& sample) {
   }
   kept_ = false;
   phase_ = Phase::kOpen;
-  path_ = JointPath(sample.q, q_open_, sample.utime, config_.clear_time);
-  ball_watch_ = BallWatch(config_.touch_force, config_.quiet_time);
+  path_ = model::JointPath(sample.q, q_open_, sample.utime, config_.release.clear_time);
+  ball_watch_ = BallWatch(config_.release.touch_force, config_.quiet_time);
   if (order_ && order_->scene_id == sample.scene_id) {
     beginThrow(sample);
   } else if (order_ && order_->scene_id < sample.scene_id) {
@@ -162,11 +162,13 @@ void HandController::beginThrow(const HandSample& sample) {
   }
   run_ = next_;
   run_order_ = order;
+  grasp_utime_ = sample.utime;
   phase_ = Phase::kGrasp;
   grip_checked_ = false;
   X_TH_ = hand_.X_TH(run_->plan.q_wrist[0], run_->plan.q_wrist[1]);
-  path_ = JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
+  path_ = model::JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
   push_end_ = {};
+  settling_ = GripSettling(run_->geometry, ball_, hand_.parameters(), config_.settle_constant);
 }
 
 double HandController::planTime(int64_t utime) const {
@@ -199,13 +201,23 @@ bool HandController::pushHasEnded(double t) {
 void HandController::beginRelease(const HandSample& sample, ReleaseBy reason) {
   phase_ = Phase::kRelease;
   release_utime_ = sample.utime;
-  thumb_ = ThumbOpening(config_, hand_.parameters().finger_torque_max);
+  release_ = model::ReleaseMotion(hand_, settling_.settled(), config_.release,
+                                  config_.release.modeFor(run_->plan.window));
   commanded_ = {sample.utime,
                 run_->plan.id,
                 ReleaseEvent::Kind::kCommanded,
                 reason,
                 run_order_.start_utime + microseconds(run_->plan.t_release_command),
                 sample.force};
+}
+
+void HandController::settleGrip(const HandSample& sample) {
+  const double closed =
+      1e-6 * static_cast<double>(sample.utime - grasp_utime_) - config_.grasp_time;
+  if (phase_ <= Phase::kHold && closed < config_.settle_time) {
+    settling_.step(sample.force, closed < 0,
+                   1e-6 * static_cast<double>(sample.utime - last_.utime));
+  }
 }
 
 /// Says once, when the swing begins, if the thumb does not feel the grip it should have.
@@ -238,6 +250,7 @@ void HandController::advancePhase(const HandSample& sample) {
   if (!run_) {
     return;
   }
+  settleGrip(sample);
   if (phase_ == Phase::kGrasp && path_.done(sample.utime)) {
     phase_ = Phase::kHold;
   }
@@ -250,10 +263,8 @@ void HandController::advancePhase(const HandSample& sample) {
   watchBall(sample);
   const bool late = sample.utime - release_utime_ >= microseconds(config_.clear_delay);
   if (phase_ == Phase::kRelease && (ball_watch_.departed() || late)) {
+    release_.open(sample.utime - release_utime_);
     phase_ = Phase::kClear;
-    HandVector q_clear = q_open_;
-    q_clear.head<2>() = run_->q.head<2>();
-    path_ = JointPath(run_->q, q_clear, sample.utime, config_.clear_time);
   }
 }
 
@@ -267,43 +278,33 @@ double HandController::pressure(model::Finger finger, const HandVector& q) const
 }
 
 void HandController::command(const HandSample& sample) {
-  const JointPath::Point point = path_.at(sample.utime);
-  answer_.plan_id = run_ ? run_->plan.id : 0;
-  answer_.phase = phase_;
+  const model::JointPath::Point point = path_.at(sample.utime);
   answer_.q = point.q;
   answer_.qd = point.qd;
   answer_.tau.setZero();
-  answer_.kp = config_.kp;
-  answer_.kd = config_.kd;
-  if (phase_ == Phase::kGrasp || phase_ == Phase::kHold || phase_ == Phase::kRelease) {
+  answer_.kp = config_.release.kp;
+  answer_.kd = config_.release.kd;
+  if (phase_ == Phase::kGrasp || phase_ == Phase::kHold) {
     answer_.tau = run_->tau;
-  }
-  if (run_) {
-    answer_.tau.head<2>() = wristLoad(
-        arm_, hand_.parameters(), run_->plan.arm.at(planTime(sample.utime)), run_->plan.q_wrist);
   }
   if (phase_ == Phase::kGrasp) {
     for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
       answer_.tau.segment<2>(model::Hand::proximalJoint(finger)) *= pressure(finger, point.q);
     }
   }
+  if (phase_ == Phase::kGrasp || phase_ == Phase::kHold) {
+    settling_.apply(answer_.q);
+  }
   if (phase_ >= Phase::kRelease) {
-    commandThumb(sample);
+    release_.step(sample.utime - release_utime_, sample.q, sample.qd, sample.force, answer_);
+    phase_ = release_.opening() ? Phase::kClear : phase_;
   }
-}
-
-void HandController::commandThumb(const HandSample& sample) {
-  constexpr int kProximal = model::kProximalThumb, kDistal = model::kDistalThumb;
-  const ThumbOpening::Drive drive =
-      thumb_.step(sample.utime, sample.q[kProximal], sample.qd[kProximal]);
-  answer_.q[kProximal] = drive.q;
-  answer_.qd[kProximal] = drive.qd;
-  answer_.tau[kProximal] = drive.tau;
-  if (!drive.guided) {
-    answer_.kp[kProximal] = answer_.kd[kProximal] = 0;
+  if (run_) {
+    answer_.tau.head<2>() = wristLoad(
+        arm_, hand_.parameters(), run_->plan.arm.at(planTime(sample.utime)), run_->plan.q_wrist);
   }
-  answer_.q[kDistal] = run_->q[kDistal];
-  answer_.qd[kDistal] = answer_.tau[kDistal] = 0;
+  answer_.plan_id = run_ ? run_->plan.id : 0;
+  answer_.phase = phase_;
 }
 
 std::optional<HandAnswer> HandController::answer(const HandSample& sample) {

@@ -7,12 +7,13 @@
 
 #include "hand_server/ball_watch.h"
 #include "hand_server/config.h"
+#include "hand_server/grip_settling.h"
 #include "hand_server/hand_plan.h"
-#include "hand_server/joint_path.h"
 #include "hand_server/release_condition.h"
-#include "hand_server/thumb_opening.h"
 #include "model/arm.h"
 #include "model/hand.h"
+#include "model/joint_path.h"
+#include "model/release_motion.h"
 
 namespace fastball::hand_server {
 
@@ -30,14 +31,9 @@ struct HandSample {
 };
 
 /// What the hand's servo shall do until the next state.
-struct HandAnswer {
+struct HandAnswer : model::JointTargets {
   int64_t plan_id = 0;  ///< 0: none
   Phase phase = Phase::kOpen;
-  model::HandVector q = model::HandVector::Zero();    ///< [rad]
-  model::HandVector qd = model::HandVector::Zero();   ///< [rad/s]
-  model::HandVector tau = model::HandVector::Zero();  ///< [N m], feed-forward
-  model::HandVector kp = model::HandVector::Zero();   ///< [N m/rad]
-  model::HandVector kd = model::HandVector::Zero();   ///< [N m s/rad]
 };
 
 /// When a plan shall be run.
@@ -58,9 +54,9 @@ struct ReleaseEvent {
   FingerForces force{};       ///< [N]
 };
 
-/// The three fingers through a throw (section 3.1): open; grasp at once in the scene of an ordered throw; hold; release, in which
-/// the thumb opens abruptly and the two fingers behind the ball stay as they are; clear, when the ball has left. A state is
-/// answered at most once: the same state again gets the same answer again and changes nothing.
+/// The three fingers through a throw (section 3.1): open; grasp at once in the scene of an ordered throw; hold; release, in the
+/// mode that the plan's release window calls for; clear, when all fingers open. A state is answered at most once: the same state
+/// again gets the same answer again and changes nothing.
 class HandController {
  public:
   HandController(const model::Arm& arm,
@@ -109,10 +105,10 @@ class HandController {
   bool mustRelease(int64_t utime);
   bool pushHasEnded(double t);
   void beginRelease(const HandSample& sample, ReleaseBy reason);
+  void settleGrip(const HandSample& sample);
   void checkGrip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
-  void commandThumb(const HandSample& sample);
   double pressure(model::Finger finger, const model::HandVector& q) const;
   double planTime(int64_t utime) const;
 
@@ -136,9 +132,10 @@ class HandController {
   Phase phase_ = Phase::kOpen;
   bool kept_ = false;
   bool grip_checked_ = false;
-  int64_t release_utime_ = 0;
-  JointPath path_;
-  ThumbOpening thumb_;
+  int64_t grasp_utime_ = 0, release_utime_ = 0;
+  model::JointPath path_;
+  GripSettling settling_;
+  model::ReleaseMotion release_;
   PushEnd push_end_;
   BallWatch ball_watch_;
   HandSample last_;

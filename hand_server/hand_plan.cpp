@@ -53,7 +53,8 @@ bool operator==(const HandPlan& a, const HandPlan& b) {
     }
   }
   return a.t_swing == b.t_swing && a.t_release_command == b.t_release_command &&
-         a.t_release == b.t_release && a.grip_force == b.grip_force && a.q_wrist == b.q_wrist;
+         a.t_release == b.t_release && a.window == b.window && a.grip_force == b.grip_force &&
+         a.q_wrist == b.q_wrist;
 }
 
 PlannedGrasp planGrasp(const HandPlan& plan,
@@ -73,14 +74,7 @@ PlannedGrasp planGrasp(const HandPlan& plan,
     throw std::invalid_argument(fmt::format("plan {}: {}", plan.id, e.what()));
   }
   result.q = hand.posture(plan.q_wrist[0], plan.q_wrist[1], result.geometry.distances());
-  for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
-    const int proximal = model::Hand::proximalJoint(finger);
-    const Eigen::Vector3d& torque = result.geometry.fingers[finger].torque;
-    result.tau.segment<2>(proximal) = torque.tail<2>();
-    if (finger != model::kThumb) {
-      result.tau[proximal - 1] = torque[0];
-    }
-  }
+  result.tau = result.geometry.torques();
   requireTorques(plan, result.tau, hand.parameters().finger_torque_max);
   return result;
 }

@@ -17,6 +17,7 @@ struct HandPlan {
   double t_swing = 0;                                 ///< swing begins
   double t_release_command = 0;                       ///< the hand is told to let go
   double t_release = 0;                               ///< the ball is predicted to leave
+  double window = 0;                                  ///< length of the release window
   double grip_force = 0;                              ///< [N], thumb normal force through the swing
   Eigen::Vector2d q_wrist = Eigen::Vector2d::Zero();  ///< [rad], roll and flexion through the swing
   model::SampledTrajectory arm;

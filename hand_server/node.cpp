@@ -23,6 +23,7 @@ HandPlan fromMessage(const swing_plan_t& message) {
           message.t_swing,
           message.t_release_command,
           message.t_release,
+          message.release_window[1] - message.release_window[0],
           message.grip_force,
           Eigen::Map<const Eigen::Vector2d>(message.q_wrist),
           model::SampledTrajectory(message.dt, std::move(samples))};

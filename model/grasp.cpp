@@ -43,6 +43,17 @@ void requireDistalContact(const Hand& hand, Finger finger, const HandVector& q, 
 
 }  // namespace
 
+HandVector GraspGeometry::torques() const {
+  HandVector tau = HandVector::Zero();
+  for (const Finger finger : {kFingerA, kThumb, kFingerB}) {
+    const int proximal = Hand::proximalJoint(finger);
+    tau.segment<2>(proximal) = fingers[finger].torque.tail<2>();
+    if (finger != kThumb)
+      tau[proximal - 1] = fingers[finger].torque[0];
+  }
+  return tau;
+}
+
 GraspGeometry grasp(const BallParameters& ball, const Hand& hand, double grip_force) {
   const HandParameters& parameters = hand.parameters();
   const Eigen::Vector3d& p_HBall = parameters.p_HBall;

@@ -29,6 +29,8 @@ struct GraspGeometry {
   std::array<double, kFingers> distances() const {
     return {fingers[kFingerA].distance, fingers[kThumb].distance, fingers[kFingerB].distance};
   }
+  /// Torques [N m] of all joints that press with the forces; those of the wrist are 0.
+  HandVector torques() const;
 };
 
 /// @param grip_force normal force of the thumb [N], 0 or more.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "model/contact.h"
+#include "model/finger_body.h"
 #include "model/grasp.h"
 
 namespace fastball::model {
@@ -14,35 +15,20 @@ namespace {
 
 // [s] before the command, in which ball and fingers find their balance
 constexpr double kSettleTime = 0.06;
-constexpr double kSettleDragTime = 0.03;   // [s] of that with the drag below; the rest without
-constexpr double kSettleDrag = 500;        // [1/s], slows the ball in the hand while it settles
-constexpr double kQuietTime = 3e-3;        // [s] without touch after which the ball has left
-constexpr double kTouchForce = 1e-6;       // [N], less is rounding error, not touch
-constexpr double kThumbTravel = M_PI / 2;  // [rad]; the open thumb stops out of the ball's way
+constexpr double kSettleDragTime = 0.03;  // [s] of that with the drag below; the rest without
+constexpr double kSettleDrag = 500;       // [1/s], slows the ball in the hand while it settles
+constexpr double kQuietTime = 3e-3;       // [s] without touch after which the ball has left
+constexpr double kTouchForce = 1e-6;      // [N], less is rounding error, not touch
+constexpr double kTick = 1e-3;            // [s], the hand is commanded once a tick
 
 constexpr int kPalm = kFingers;  // index of the palm among the things that can touch the ball
 constexpr int kBodies = kFingers + 1;
-
-/// How far [rad] and how fast [rad/s] the thumb has opened t [s] after the command.
-struct Opening {
-  double angle = 0, rate = 0;
-};
-
-Opening thumbOpening(const ReleaseCommand& command, double t) {
-  const double moving = t - command.thumb_delay;
-  if (!(moving > 0))
-    return {};
-  const double acceleration = command.thumb_acceleration, speed = command.thumb_speed;
-  Opening opening{acceleration * moving * moving / 2, acceleration * moving};
-  if (opening.rate > speed)
-    opening = {speed * (moving - speed / acceleration / 2), speed};
-  return opening.angle < kThumbTravel ? opening : Opening{kThumbTravel, 0};
-}
 
 /// Where a finger or the palm meets the ball; vectors in H.
 struct Meeting {
   Eigen::Vector3d n_H = Eigen::Vector3d::UnitZ();  ///< from the body to the ball's centre
   double overlap = -1;                             ///< [m], of the undeformed shapes
+  int phalanx = 0;                                 ///< of the finger
 };
 
 Eigen::Vector3d nearestPoint(const Segment& segment, const Eigen::Vector3d& p) {
@@ -55,31 +41,13 @@ Meeting meetFinger(const std::array<Segment, 2>& phalanges,
                    const Eigen::Vector3d& p_HBall,
                    double radii) {
   Meeting deepest;
-  for (const Segment& phalanx : phalanges) {
-    const Eigen::Vector3d offset = p_HBall - nearestPoint(phalanx, p_HBall);
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector3d offset = p_HBall - nearestPoint(phalanges[i], p_HBall);
     const double overlap = radii - offset.norm();
     if (overlap > deepest.overlap)
-      deepest = {offset.normalized(), overlap};
+      deepest = {offset.normalized(), overlap, i};
   }
   return deepest;
-}
-
-/// Deformation y of the ball when it and a spring in series share the overlap: y + F(y) / stiffness
-/// = overlap.
-double sharedDeformation(const BallParameters& ball, double stiffness, double overlap) {
-  if (!(overlap > 0))
-    return overlap;
-  double low = 0, high = overlap, y = overlap / 2;
-  for (int i = 0; i < 60 && high - low > 1e-13; ++i) {
-    const double error = y + elasticForce(ball, y) / stiffness - overlap;
-    (error < 0 ? low : high) = y;
-    const double newton = y - error / (1 + elasticStiffness(ball, y) / stiffness);
-    const double next = newton > low && newton < high ? newton : (low + high) / 2;
-    if (std::abs(next - y) < 1e-14)
-      break;
-    y = next;
-  }
-  return y;
 }
 
 /// The ball among the fingers of a moving hand.
@@ -88,17 +56,20 @@ class BallInHand {
   BallInHand(const BallParameters& ball,
              const Hand& hand,
              const ReleaseCommand& command,
+             const HandSupport* support,
              double gravity)
       : ball_(ball),
         hand_(hand),
         command_(command),
         gravity_(gravity),
-        grasp_(grasp(ball, hand, command.grip_force)) {
-    for (const Finger finger : {kFingerA, kThumb, kFingerB})
-      phalanges_[finger] = hand.phalanges(finger, grasp_.q);
-    const double azimuth = hand.parameters().azimuth[kThumb];
-    thumb_axis_H_ =
-        Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0).cross(Eigen::Vector3d::UnitZ());
+        grasp_(grasp(ball, hand, command.grip_force)),
+        fingers_{body(kFingerA), body(kThumb), body(kFingerB)},
+        release_(hand, grasp_, command.settings, command.mode),
+        supported_(support) {
+    targets_.q = grasp_.q;
+    targets_.tau = grasp_.torques();
+    targets_.kp = command.settings.kp;
+    targets_.kd = command.settings.kd;
   }
 
   /// At rest in the hand, at its nominal place.
@@ -109,16 +80,34 @@ class BallInHand {
     w_WBall_ = motion.w_WH;
   }
 
-  /// Advances by dt from time t (semi-implicit Euler); `drag` [1/s] against motion in the hand.
+  /// What the fingers are told t [s] after the command.
+  void command(double t) {
+    HandVector q = targets_.q, qd = targets_.qd;
+    for (const Finger finger : {kFingerA, kThumb, kFingerB}) {
+      q.segment<2>(Hand::proximalJoint(finger)) = fingers_[finger].q();
+      qd.segment<2>(Hand::proximalJoint(finger)) = fingers_[finger].qd();
+    }
+    FingerForces felt{};
+    for (int i = 0; i < kFingers; ++i)
+      felt[i] = felt_steps_ > 0 ? felt_[i] / felt_steps_ : 0;
+    felt_ = {};
+    felt_steps_ = 0;
+    release_.step(std::llround(1e6 * t), q, qd, felt, targets_);
+    released_ = true;
+  }
+
+  /// Advances by dt (semi-implicit Euler); `drag` [1/s] against motion in the hand.
   /// @return whether something presses on the ball.
-  bool step(const HandMotion& motion, double t, double dt, double drag) {
-    moveThumb(t);
+  bool step(const HandMotion& planned, double dt, double drag) {
+    const HandMotion motion = supported_.moved(planned);
     const Eigen::Vector3d p_HBall = motion.X_WH.inverse() * state_.p_WBall;
     force_.setZero();
     moment_.setZero();
     bool touched = false;
     for (int body = 0; body < kBodies; ++body)
       touched |= touch(body, meet(body, p_HBall), motion, dt);
+    ++felt_steps_;
+    moveHand(planned, motion, dt);
     const Eigen::Vector3d v_hand =
         motion.v_WH + motion.w_WH.cross(state_.p_WBall - motion.X_WH.translation());
     const Eigen::Vector3d a_drag = -drag * (state_.v_WBall - v_hand);
@@ -134,54 +123,69 @@ class BallInHand {
   const Eigen::Vector3d& spin() const { return w_WBall_; }
 
  private:
-  void moveThumb(double t) {
-    const Opening opening = thumbOpening(command_, t);
-    thumb_rate_ = opening.rate;
-    HandVector q = grasp_.q;
-    q[kProximalThumb] -= opening.angle;
-    phalanges_[kThumb] = hand_.phalanges(kThumb, q);
+  FingerBody body(Finger finger) const {
+    return FingerBody(hand_, finger, grasp_.q, grasp_.torques());
+  }
+
+  /// Fingers, and what carries the hand.
+  void moveHand(const HandMotion& planned, const HandMotion& motion, double dt) {
+    HandWrench load;
+    for (FingerBody& finger : fingers_) {
+      if (command_.ideal_drives) {
+        finger.follow(targets_);
+        continue;
+      }
+      finger.step(targets_, motion, gravity_, dt);
+      load.force += finger.reaction().force;
+      load.moment += finger.reaction().moment;
+    }
+    if (!released_)
+      return;
+    // The plan has the arm carry the ball as a part of the hand; the fingers carry it as it is.
+    const Eigen::Matrix3d R_HW = motion.X_WH.linear().transpose();
+    const Eigen::Vector3d& p_H = hand_.parameters().p_HBall;
+    const Eigen::Vector3d r_W = planned.X_WH.linear() * p_H;
+    const Eigen::Vector3d a_W = planned.a_WH + planned.dw_WH.cross(r_W) +
+                                planned.w_WH.cross(planned.w_WH.cross(r_W)) +
+                                gravity_ * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d missing = R_HW * (ball_.mass * a_W - force_);
+    load.force += missing;
+    load.moment += p_H.cross(missing);
+    supported_.step(load, motion.X_WH.linear(), dt);
   }
 
   Meeting meet(int body, const Eigen::Vector3d& p_HBall) const {
     const HandParameters& parameters = hand_.parameters();
-    if (body != kPalm)
-      return meetFinger(phalanges_[body], p_HBall, ball_.radius + parameters.finger_radius);
+    const bool gone = command_.ideal_drives && released_ && body == kThumb &&
+                      command_.mode == ReleaseMode::kAbrupt;
+    if (gone)
+      return {};
+    if (body != kPalm) {
+      return meetFinger(fingers_[body].phalanges(), p_HBall,
+                        ball_.radius + parameters.finger_radius);
+    }
     if (p_HBall.head<2>().norm() > parameters.palm_radius)
       return {};
     return {Eigen::Vector3d::UnitZ(), ball_.radius + parameters.palm_distance - p_HBall.z()};
   }
 
-  /// Velocity [m/s] in the world of the point of a body that lies at p_W.
-  Eigen::Vector3d bodyVelocity(int body,
-                               const HandMotion& motion,
-                               const Eigen::Vector3d& p_W) const {
-    Eigen::Vector3d v = motion.v_WH + motion.w_WH.cross(p_W - motion.X_WH.translation());
-    if (body != kThumb)
-      return v;
-    const Eigen::Vector3d from_base = motion.X_WH.inverse() * p_W - phalanges_[kThumb][0].p_start;
-    v += motion.X_WH.linear() * (-thumb_rate_ * thumb_axis_H_).cross(from_base);
-    return v;
-  }
-
   bool touch(int body, const Meeting& meeting, const HandMotion& motion, double dt) {
-    double y = meeting.overlap, share = 1;
-    const bool rear = body == kFingerA || body == kFingerB;
-    if (rear && command_.finger_stiffness > 0) {
-      // The drive of a rear finger carries the grip in its nominal place and gives way from there.
-      const double slack = grasp_.fingers[body].force / command_.finger_stiffness;
-      y = sharedDeformation(ball_, command_.finger_stiffness, meeting.overlap + slack);
-      share = 1 / (1 + elasticStiffness(ball_, y) / command_.finger_stiffness);
-    }
-    const Eigen::Vector3d n_W = motion.X_WH.linear() * meeting.n_H;
-    const Eigen::Vector3d arm = -(ball_.radius - y) * n_W;
-    Eigen::Vector3d v =
-        state_.v_WBall + w_WBall_.cross(arm) - bodyVelocity(body, motion, state_.p_WBall + arm);
-    // In series with the finger the ball deforms at `share` of the speed, and of its damping force the finger passes on the same
-    // share.
-    v -= (1 - share * share) * n_W.dot(v) * n_W;
-    const Eigen::Vector3d force = contacts_[body].step(ball_, n_W, y, v, dt);
+    const Eigen::Matrix3d& R_WH = motion.X_WH.linear();
+    const Eigen::Vector3d n_W = R_WH * meeting.n_H;
+    const Eigen::Vector3d arm = -(ball_.radius - meeting.overlap) * n_W;
+    const Eigen::Vector3d r_W = state_.p_WBall + arm - motion.X_WH.translation();
+    const Eigen::Vector3d p_H = R_WH.transpose() * r_W;
+    Eigen::Vector3d v_body = motion.v_WH + motion.w_WH.cross(r_W);
+    if (body != kPalm)
+      v_body += R_WH * fingers_[body].velocityAt(meeting.phalanx, p_H);
+    const Eigen::Vector3d v = state_.v_WBall + w_WBall_.cross(arm) - v_body;
+    const Eigen::Vector3d force = contacts_[body].step(ball_, n_W, meeting.overlap, v, dt);
     force_ += force;
     moment_ += arm.cross(force);
+    if (body != kPalm) {
+      felt_[body] += n_W.dot(force);
+      fingers_[body].push(meeting.phalanx, p_H, -(R_WH.transpose() * force));
+    }
     return n_W.dot(force) > kTouchForce;
   }
 
@@ -190,9 +194,13 @@ class BallInHand {
   const ReleaseCommand& command_;
   double gravity_;
   GraspGeometry grasp_;
-  std::array<std::array<Segment, 2>, kFingers> phalanges_;
-  Eigen::Vector3d thumb_axis_H_;
-  double thumb_rate_ = 0;
+  std::array<FingerBody, kFingers> fingers_;
+  ReleaseMotion release_;
+  JointTargets targets_;
+  SupportedHand supported_;
+  bool released_ = false;
+  FingerForces felt_{};  ///< [N], sums since the last command
+  int felt_steps_ = 0;
   std::array<Contact, kBodies> contacts_;
   BallState state_;
   Eigen::Vector3d w_WBall_ = Eigen::Vector3d::Zero();
@@ -214,15 +222,17 @@ Departure predictDeparture(const BallParameters& ball,
                            const ReleaseCommand& command,
                            const std::function<HandMotion(double)>& hand_at,
                            double gravity,
+                           const HandSupport* support,
                            double time_step,
                            double max_time) {
   requirePositive(ball.mass, "the ball's mass [kg]");
   requirePositive(time_step, "the time step [s]");
-  BallInHand held(ball, hand, command, gravity);
+  BallInHand held(ball, hand, command, support, gravity);
   held.place(hand_at(-kSettleTime));
 
   const auto settle_steps = std::lround(kSettleTime / time_step);
   const auto steps = settle_steps + std::lround(max_time / time_step);
+  const auto tick = command.ideal_drives ? 1L : std::max(1L, std::lround(kTick / time_step));
   Departure last;  // at the last touch; without any touch before it, at the command
   bool touched_before = false;
   for (long i = 0; i < steps; ++i) {
@@ -233,8 +243,10 @@ Departure predictDeparture(const BallParameters& ball,
       last.departed = true;
       return last;
     }
+    if (i >= settle_steps && (i - settle_steps) % tick == 0)
+      held.command(t);
     const double drag = t < kSettleDragTime - kSettleTime ? kSettleDrag : 0;
-    if (held.step(hand_at(t), t, time_step, drag)) {
+    if (held.step(hand_at(t), time_step, drag)) {
       last = {false, t + time_step, held.state(), held.spin()};
       touched_before = true;
     }

@@ -6,26 +6,20 @@
 #include "model/ball_flight.h"
 #include "model/ball_parameters.h"
 #include "model/hand.h"
-#include "model/hand_parameters.h"
+#include "model/hand_motion.h"
+#include "model/hand_support.h"
+#include "model/release_motion.h"
 
 namespace fastball::model {
 
-/// Pose, velocity and acceleration of the hand frame H in the world at one time.
-struct HandMotion {
-  Eigen::Isometry3d X_WH;
-  Eigen::Vector3d v_WH, w_WH;   ///< [m/s] of H's origin, [rad/s]
-  Eigen::Vector3d a_WH, dw_WH;  ///< [m/s^2], [rad/s^2]
-};
-
-/// How the fingers let go (section 3.1 i-iii): the thumb opens, the two fingers behind the ball stay where they are.
+/// How the fingers let go.
 struct ReleaseCommand {
-  double grip_force = 0;          ///< [N], thumb normal force while gripping
-  double thumb_delay = 0;         ///< [s], from the command to the first motion of the thumb
-  double thumb_acceleration = 0;  ///< [rad/s^2], of the thumb's opening
-  double thumb_speed = 0;         ///< [rad/s], at most
-  /// [N/m], of a finger behind the ball at its contact, in series with the ball; 0: rigid. Its drive carries the grip in its
-  /// nominal place and gives way from there.
-  double finger_stiffness = 0;
+  double grip_force = 0;  ///< [N], thumb normal force while gripping
+  ReleaseMode mode = ReleaseMode::kAbrupt;
+  ReleaseSettings settings;
+  /// The fingers are exactly where they are told to be, and a thumb that opens abruptly is gone at once: the limit that theory
+  /// speaks of.
+  bool ideal_drives = false;
 };
 
 /// How the ball leaves a moving hand.
@@ -37,11 +31,12 @@ struct Departure {
   Eigen::Vector3d w_WBall = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
-/// Integrates the ball between fingers and palm (Eq. 27 with damping and bristle friction, 3-D) through the thumb's opening
-/// until nothing has touched it for 3 ms. It starts 60 ms before the command at rest in the hand, so that it has found its
-/// balance under the grip, gravity and the hand's acceleration when the thumb opens. Until then the thumb stays at its grasp
-/// posture; the open thumb stops after a quarter turn.
-/// @param hand_at the hand's motion t [s] after the command, asked for from t = -0.06 s on.
+/// Integrates the ball between fingers and palm (Eq. 27 with damping and bristle friction, 3-D) and the fingers under their
+/// drives, which are commanded once a millisecond as the hand server does, until nothing has touched the ball for 3 ms. It starts
+/// 60 ms before the command at rest in the hand, so that all have found their balance under the grip, gravity and the hand's
+/// acceleration when the fingers begin to let go.
+/// @param hand_at the hand's planned motion t [s] after the command, asked for from t = -0.06 s on.
+/// @param support what gives way when fingers and ball push the hand away from its plan; null: nothing.
 /// @throw std::invalid_argument if the grip is more than the ball can carry or does not fit the hand (see grasp()), or if mass
 /// or time step are not positive.
 Departure predictDeparture(const BallParameters& ball,
@@ -49,6 +44,7 @@ Departure predictDeparture(const BallParameters& ball,
                            const ReleaseCommand& command,
                            const std::function<HandMotion(double)>& hand_at,
                            double gravity,
+                           const HandSupport* support = nullptr,
                            double time_step = 1e-4,
                            double max_time = 0.1);
 

@@ -207,7 +207,8 @@ class Windows : public PlannedThrows {
     if (!motion)
       return {};
     const auto prediction =
-        predict(*motion, planner_.wristOf(*motion), target, motion->t_zero, departure);
+        predict(*motion, planner_.wristOf(*motion), target, predictor_.windowCommandTime(*motion),
+                departure);
     if (!prediction)
       return {};
     AtlasThrow entry = found;

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 constexpr const char* kKindNames[] = {"window", "held swing", "free swing"};
 
 template <typename Derived>
@@ -84,9 +84,13 @@ json toJson(const SwingSettings& swing) {
           {"brake_time", toJson(swing.follow.brake_time)}};
 }
 
-json toJson(const model::ReleaseCommand& release) {
-  return {release.grip_force, release.thumb_delay, release.thumb_acceleration, release.thumb_speed,
-          release.finger_stiffness};
+json toJson(const model::ReleaseSettings& release) {
+  return {{"modes", {static_cast<int>(release.in_window), static_cast<int>(release.without_window)}},
+          {"kp", toJson(release.kp)},
+          {"kd", toJson(release.kd)},
+          {"thumb", {release.thumb.open_angle, release.thumb.speed, release.thumb.deceleration}},
+          {"relax", {release.relax_time, release.retreat_ratio, release.open_delay, release.touch_force}},
+          {"open", {release.open_distance, release.clear_time}}};
 }
 
 /// FNV-1a.
@@ -171,24 +175,26 @@ fs::path atlasFolder() {
 
 json atlasKey(const PlannerConfig& config) {
   const ThrowErrors& errors = config.robust.errors;
-  return {
-      {"format", kFormat},
-      {"arm", toJson(config.arm)},
-      {"hand", toJson(config.hand)},
-      {"ball", toJson(config.ball)},
-      {"swing", toJson(config.swing)},
-      {"release", toJson(config.release)},
-      {"motion",
-       {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
-        config.motion.approach_speed}},
-      {"limit_share", config.limit_share},
-      {"max_evaluations", config.max_evaluations},
-      {"landing_tolerance", config.landing_tolerance},
-      {"robust",
-       {{"window_lengths", config.robust.window_lengths},
-        {"limit_share", config.robust.limit_share},
-        {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
-      {"grid", {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
+  return {{"format", kFormat},
+          {"arm", toJson(config.arm)},
+          {"hand", toJson(config.hand)},
+          {"ball", toJson(config.ball)},
+          {"swing", toJson(config.swing)},
+          {"grip_force", config.grip_force},
+          {"release", toJson(config.release)},
+          {"support", {toJson(config.support_kp), toJson(config.support_kd)}},
+          {"motion",
+           {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
+            config.motion.approach_speed}},
+          {"limit_share", config.limit_share},
+          {"max_evaluations", config.max_evaluations},
+          {"landing_tolerance", config.landing_tolerance},
+          {"robust",
+           {{"window_lengths", config.robust.window_lengths},
+            {"limit_share", config.robust.limit_share},
+            {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
+          {"grid",
+           {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
 }
 
 fs::path atlasPath(const PlannerConfig& config, const fs::path& folder) {

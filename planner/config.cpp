@@ -1,17 +1,19 @@
 #include "planner/config.h"
 
+#include "config/release_file.h"
+
 namespace fastball::planner {
 namespace {
 
-model::ReleaseCommand readRelease(config::Section section) {
-  model::ReleaseCommand release;
-  release.grip_force = section.number("grip_force", {0.1, 12});
-  release.thumb_delay = section.number("thumb_delay", {0, 0.05});
-  release.thumb_acceleration = section.number("thumb_acceleration", config::kPositive);
-  release.thumb_speed = section.number("thumb_speed", config::kPositive);
-  release.finger_stiffness = section.number("finger_stiffness", config::kNonNegative);
-  section.finish();
-  return release;
+/// What the planner must know of the hand server and the controller to predict what they will do.
+void readServos(const std::string& path, PlannerConfig& result) {
+  config::Section hand_server = config::processSection(path, "hand_server");
+  result.release = config::readRelease(hand_server);
+  config::Section controller = config::processSection(path, "controller");
+  result.support_kp << controller.vector("kp", model::kArmJoints, config::kPositive),
+      result.release.kp.head<2>();
+  result.support_kd << controller.vector("kd", model::kArmJoints, config::kPositive),
+      result.release.kd.head<2>();
 }
 
 std::vector<Shoulder> readShoulders(config::Section& section) {
@@ -84,7 +86,8 @@ PlannerConfig loadConfig(const std::string& path) {
   result.shoulders = readShoulders(swing);
   result.swing = readSwing(swing);
   swing.finish();
-  result.release = readRelease(section.section("release"));
+  result.grip_force = section.number("grip_force", {0.1, 12});
+  readServos(path, result);
   result.robust = readRobust(section.section("robust"));
   result.atlas = readAtlas(section.section("atlas"));
   section.finish();

@@ -33,12 +33,15 @@ struct PlannerConfig {
   SwingSettings swing;
   std::vector<Shoulder> shoulders;  ///< tried one after the other
   MotionSettings motion;
-  double limit_share = 0;        ///< of speed and torque limits, used by the optimisation
-  int random_starts = 0;         ///< where the stored ones find no throw
-  int max_evaluations = 0;       ///< of each optimisation
-  double landing_tolerance = 0;  ///< [m], predicted landing from the target's centre
-  double floor = 0;              ///< [m], world z
-  model::ReleaseCommand release;
+  double limit_share = 0;          ///< of speed and torque limits, used by the optimisation
+  int random_starts = 0;           ///< where the stored ones find no throw
+  int max_evaluations = 0;         ///< of each optimisation
+  double landing_tolerance = 0;    ///< [m], predicted landing from the target's centre
+  double floor = 0;                ///< [m], world z
+  double grip_force = 0;           ///< [N], of the thumb, through the swing
+  model::ReleaseSettings release;  ///< the hand server's
+  model::SupportVector support_kp = model::SupportVector::Zero();  ///< [N m/rad], of arm and wrist
+  model::SupportVector support_kd = model::SupportVector::Zero();  ///< [N m s/rad]
   RobustSettings robust;
   AtlasSettings atlas;
 };

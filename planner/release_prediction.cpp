@@ -16,14 +16,22 @@ constexpr double kStep = 1e-4;    // [s]
 
 PredictDeparture elasticDeparture(const PlannerConfig& config) {
   const model::Hand hand(config.hand);
-  return [ball = config.ball, hand, command = config.release,
-          gravity = config.arm.gravity](const std::function<model::HandMotion(double)>& hand_at) {
-    return model::predictDeparture(ball, hand, command, hand_at, gravity);
+  model::ReleaseCommand command;
+  command.grip_force = config.grip_force;
+  command.settings = config.release;
+  return [ball = config.ball, hand, command, gravity = config.arm.gravity](
+             const std::function<model::HandMotion(double)>& hand_at,
+             const model::HandSupport& support, model::ReleaseMode mode) {
+    model::ReleaseCommand in_mode = command;
+    in_mode.mode = mode;
+    return model::predictDeparture(ball, hand, in_mode, hand_at, gravity, &support);
   };
 }
 
 PredictDeparture instantDeparture(const PlannerConfig& config) {
-  return [p_HBall = config.hand.p_HBall](const std::function<model::HandMotion(double)>& hand_at) {
+  return [p_HBall = config.hand.p_HBall](const std::function<model::HandMotion(double)>& hand_at,
+                                         const model::HandSupport& /*support*/,
+                                         model::ReleaseMode /*mode*/) {
     const model::HandMotion hand = hand_at(0);
     const Eigen::Vector3d arm_W = hand.X_WH.linear() * p_HBall;
     model::Departure departure;
@@ -48,9 +56,12 @@ std::optional<ReleasePrediction> ReleasePredictor::predict(const WholeMotion& mo
                                                            const WristAngles& wrist,
                                                            const model::Target& target,
                                                            double t_command) const {
-  const model::Departure left = departure_([&](double t) {
-    return handMotion(arm_, hand_, wrist, motion.trajectory.at(t_command + t));
-  });
+  const model::HandSupport support =
+      model::handSupport(arm_, config_.hand, motion.trajectory.at(t_command).q,
+                         {wrist.roll, wrist.flexion}, config_.support_kp, config_.support_kd);
+  const model::Departure left = departure_(
+      [&](double t) { return handMotion(arm_, hand_, wrist, motion.trajectory.at(t_command + t)); },
+      support, config_.release.modeFor(motion.window));
   if (!left.departed || left.time < 0)
     return {};
   const std::optional<model::Landing> landing =
@@ -81,7 +92,12 @@ double ReleasePredictor::commandTime(const WholeMotion& motion) const {
       break;
     t -= kStep;
   }
-  return 1e-3 * std::round(1e3 * (t - config_.release.thumb_delay));
+  return 1e-3 * std::round(1e3 * (t - config_.hand.actuator_lag));
+}
+
+double ReleasePredictor::windowCommandTime(const WholeMotion& motion) const {
+  const double delay = config_.release.delayOf(config_.release.modeFor(motion.window));
+  return motion.t_zero + 1e-3 * std::round(1e3 * (motion.window / 2 - delay));
 }
 
 double ReleasePredictor::residualAcceleration(const model::SampledTrajectory& trajectory,

@@ -12,9 +12,12 @@
 
 namespace fastball::planner {
 
-/// How a ball leaves a moving hand after the command at time 0; hand_at(t) is the hand's motion.
+/// How a ball leaves a moving hand after the command at time 0.
+/// @param hand_at(t) the hand's motion; @param support what gives way under it; @param mode of the release.
 using PredictDeparture =
-    std::function<model::Departure(const std::function<model::HandMotion(double)>& hand_at)>;
+    std::function<model::Departure(const std::function<model::HandMotion(double)>& hand_at,
+                                   const model::HandSupport& support,
+                                   model::ReleaseMode mode)>;
 
 /// model::predictDeparture with the fingers of the configuration.
 PredictDeparture elasticDeparture(const PlannerConfig& config);
@@ -46,6 +49,8 @@ class ReleasePredictor {
                                            double t_command) const;
   /// The whole millisecond at which to let go: the thumb begins to move when Eq. (24) comes true near the swing's t = 0.
   double commandTime(const WholeMotion& motion) const;
+  /// The whole millisecond at which to let go in a release window, so that the ball leaves in its middle.
+  double windowCommandTime(const WholeMotion& motion) const;
   /// Largest |hand acceleration - free ball acceleration| [m/s^2] between two times.
   double residualAcceleration(const model::SampledTrajectory& trajectory,
                               const WristAngles& wrist,

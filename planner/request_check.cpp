@@ -63,7 +63,7 @@ std::vector<Bounded> plannerNumbers(const PlannerConfig& config) {
           {"sample_time [s]", config.motion.sample_time, 1e-3, 0.1},
           {"approach_speed", config.motion.approach_speed, 1e-3, 1},
           {"ready_time [s]", config.motion.ready_time, 0, 100},
-          {"grip_force [N]", config.release.grip_force, 1e-3, 1000},
+          {"grip_force [N]", config.grip_force, 1e-3, 1000},
           {"floor [m]", config.floor, -1e3, 1e3}};
 }
 

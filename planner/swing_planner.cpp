@@ -309,7 +309,7 @@ Plan SwingPlanner::assemble(const Aimed& aimed, const ThrowRequest& request) con
   plan.flight_time = aimed.prediction.landing.time;
   plan.wrist_roll = aimed.prediction.wrist.roll;
   plan.wrist_flexion = aimed.prediction.wrist.flexion;
-  plan.grip_force = config_.release.grip_force;
+  plan.grip_force = config_.grip_force;
   SwingVector x = aimed.solution.x;
   x[kPhi1] = shiftedPhase(x[kPhi1], x[kOmega1], aimed.motion.t_zero);
   x[kPhi3] = shiftedPhase(x[kPhi3], x[kOmega3], aimed.motion.t_zero);

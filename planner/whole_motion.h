@@ -21,7 +21,8 @@ struct MotionSettings {
 struct WholeMotion {
   model::SampledTrajectory trajectory;
   double t_ready = 0, t_swing = 0, t_swing_end = 0;  ///< [s] from the start
-  double t_zero = 0;                                 ///< [s], time of the swing's t = 0, a sample
+  double t_zero = 0;  ///< [s], time of the swing's t = 0, a sample; a release window begins there
+  double window = 0;  ///< [s], length of the release window, 0: none
 };
 
 /// A swing from rest to where braking begins. t = 0 is a sample of the whole motion.

@@ -28,6 +28,8 @@ constexpr double kCorrected = 0.997;
 constexpr double kNearlyInside = 0.004;
 // [m], so far off lands a throw whose aim and departure are interpolated, if its neighbours are alike.
 constexpr double kAlikeMiss = 3e-3;
+// [m/s^2], acceleration of the free ball relative to the hand from which its direction counts as much as that of the throw.
+constexpr double kDriftCounts = 5;
 // [m/s^2], below which a window is tried as a free flight.
 constexpr double kNearlyFree = 5;
 
@@ -163,7 +165,10 @@ std::optional<WholeMotion> WindowPlanner::motionOf(const WindowProblem& problem,
     return {};
   const model::SampledTrajectory through(x.window.length / steps, window.samples);
   const SwingMotion swing = swingThrough(x, through);
-  return wholeMotion(arm_, config_.motion, q_arm.value_or(swing.at(swing.begin).q), swing);
+  WholeMotion motion =
+      wholeMotion(arm_, config_.motion, q_arm.value_or(swing.at(swing.begin).q), swing);
+  motion.window = x.window.length;
+  return motion;
 }
 
 bool WindowPlanner::landsRight(const ReleasePrediction& prediction) const {
@@ -171,7 +176,16 @@ bool WindowPlanner::landsRight(const ReleasePrediction& prediction) const {
 }
 
 WristAngles WindowPlanner::wristOf(const WholeMotion& motion) const {
-  return {throwRoll(arm_, motion.trajectory.at(motion.t_zero), config_.hand.p_HBall), 0};
+  const Eigen::Vector3d& p_TBall = config_.hand.p_HBall;
+  const model::ArmMotion middle = motion.trajectory.at(motion.t_zero + motion.window / 2);
+  const Eigen::Vector3d v_W = arm_.pointJacobian(middle.q, p_TBall) * middle.qd;
+  const Eigen::Vector3d ahead_W =
+      model::flightAcceleration(v_W, config_.ball.dragPerMetre(), config_.arm.gravity) -
+      arm_.pointAcceleration(middle.q, middle.qd, middle.qdd, p_TBall);
+  const Eigen::Matrix3d R_TW = arm_.X_WT(middle.q).linear().transpose();
+  const Eigen::Vector2d v = (R_TW * v_W).head<2>(), ahead = (R_TW * ahead_W).head<2>();
+  const Eigen::Vector2d thumb = v.normalized() + ahead / std::max(kDriftCounts, ahead.norm());
+  return {std::atan2(-thumb.x(), thumb.y()), 0};
 }
 
 std::optional<WindowPlanner::Settled> WindowPlanner::settle(const ThrowRequest& request,
@@ -186,8 +200,8 @@ std::optional<WindowPlanner::Settled> WindowPlanner::settle(const ThrowRequest& 
     auto motion = motionOf(problem, request.q_arm, x);
     if (!motion)
       return {};
-    const auto prediction =
-        predictor_.predict(*motion, wristOf(*motion), request.target, motion->t_zero);
+    const auto prediction = predictor_.predict(*motion, wristOf(*motion), request.target,
+                                               predictor_.windowCommandTime(*motion));
     if (!prediction)
       return {};
     const Eigen::Vector2d miss = prediction->landing.landing;
@@ -232,8 +246,8 @@ std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
     if (!motion)
       return {};
     const WristAngles wrist = wristOf(*motion);
-    auto prediction =
-        predictByDeparture(config_, arm_, departure, *motion, wrist, target, motion->t_zero);
+    auto prediction = predictByDeparture(config_, arm_, departure, *motion, wrist, target,
+                                         predictor_.windowCommandTime(*motion));
     if (prediction && !landsRight(*prediction)) {
       departs_alike =
           departs_alike && (round > 0 || prediction->landing.landing.norm() < kAlikeMiss);
@@ -250,7 +264,8 @@ std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
         excess = std::max(use.speed_ratio, use.torque_ratio);
       } else if (!departs_alike) {
         // The last word has the integration of this throw's own release.
-        prediction = predictor_.predict(*motion, wrist, target, motion->t_zero);
+        prediction =
+            predictor_.predict(*motion, wrist, target, predictor_.windowCommandTime(*motion));
         if (!prediction)
           return {};
         departure = seenFromHand(config_, arm_, *motion, *prediction);
@@ -284,7 +299,7 @@ Plan WindowPlanner::assemble(const ThrowRequest& request, const Settled& settled
   plan.t_swing_end = motion.t_swing_end;
   plan.t_release_command = prediction.t_command;
   plan.t_release = prediction.t_departure;
-  plan.release_window = {prediction.t_command, prediction.t_command + x.window.length};
+  plan.release_window = {motion.t_zero, motion.t_zero + x.window.length};
   plan.residual_acceleration = predictor_.residualAcceleration(
       plan.trajectory, prediction.wrist, plan.release_window[0], plan.release_window[1]);
   plan.release = prediction.ball;
@@ -292,7 +307,7 @@ Plan WindowPlanner::assemble(const ThrowRequest& request, const Settled& settled
   plan.flight_time = prediction.landing.time;
   plan.wrist_roll = prediction.wrist.roll;
   plan.wrist_flexion = prediction.wrist.flexion;
-  plan.grip_force = config_.release.grip_force;
+  plan.grip_force = config_.grip_force;
   const WindowVector values = toVector(x);
   for (int i = 0; i < kWindowVariables; ++i)
     plan.parameters.emplace_back(variableNames()[i], values[i]);

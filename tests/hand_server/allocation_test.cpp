@@ -26,10 +26,11 @@ void operator delete(void* memory, std::size_t) noexcept {
 namespace fastball::hand_server {
 namespace {
 
-TEST(Allocation, NoneInALoop) {
+/// @param window [s], of the plan: decides how the ball is let go.
+void throwWithout(double window) {
   HandController controller(testArm(), testHand(), experiment().ball, loadConfig(kExperimentPath));
   ScriptedHand hand;
-  const HandPlan plan = throwPlan();
+  const HandPlan plan = throwPlan(1, window);
   ASSERT_TRUE(controller.offerPlan(plan));
   ASSERT_TRUE(controller.startThrow({1, 1, 300'000}));
   const long before = g_allocations;
@@ -44,6 +45,14 @@ TEST(Allocation, NoneInALoop) {
   }
   EXPECT_EQ(g_allocations - before, 0);
   EXPECT_EQ(last, Phase::kClear);
+}
+
+TEST(Allocation, NoneInALoopWithAnAbruptRelease) {
+  throwWithout(0);
+}
+
+TEST(Allocation, NoneInALoopWithARetreat) {
+  throwWithout(0.04);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ constexpr int64_t kStartUs = kSceneUs + 600'000;
 
 class HandThrow : public testing::Test {
  protected:
-  void arm() {
-    ASSERT_TRUE(controller_.offerPlan(throwPlan()));
+  void arm(double window = 0) {
+    ASSERT_TRUE(controller_.offerPlan(throwPlan(1, window)));
     ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
   }
   HandSample sample() const { return {utime_, scene_, tick_, hand_.q, hand_.qd, force_}; }
@@ -43,7 +43,7 @@ class HandThrow : public testing::Test {
   HandServerConfig config_ = loadConfig(kExperimentPath);
   HandController controller_{testArm(), testHand(), experiment().ball, config_};
   ScriptedHand hand_;
-  FingerForces force_{2.3, 4.0, 2.3};
+  FingerForces force_{4 / std::sqrt(3.0), 4.0, 4 / std::sqrt(3.0)};
   std::vector<ReleaseEvent> events_;
   int64_t scene_ = 1, tick_ = 0, utime_ = kSceneUs;
 };
@@ -51,7 +51,7 @@ class HandThrow : public testing::Test {
 TEST_F(HandThrow, WithoutAThrowTheFingersAreApart) {
   const HandAnswer answer = run(500);
   EXPECT_EQ(answer.phase, Phase::kOpen);
-  const double d = config_.open_distance;
+  const double d = config_.release.open_distance;
   EXPECT_LT((answer.q - testHand().posture(0, 0, {d, d, d})).norm(), 1e-12);
   EXPECT_TRUE(answer.tau.isZero(0));
 }
@@ -107,7 +107,7 @@ TEST_F(HandThrow, InTheReleaseTheThumbOpensAndTheOtherFingersStay) {
     }
   }
   run(200);
-  EXPECT_NEAR(hand_.q[model::kProximalThumb], config_.thumb_open_angle, 1e-3);
+  EXPECT_NEAR(hand_.q[model::kProximalThumb], config_.release.thumb.open_angle, 1e-3);
   EXPECT_EQ(hand_.qd[model::kProximalThumb], 0);
 }
 
@@ -128,6 +128,24 @@ TEST_F(HandThrow, ReleaseAndDepartureAreSaidOnceEach) {
   EXPECT_EQ(events_[1].utime, kStartUs + 507'000) << "the last state with a touch";
   EXPECT_EQ(events_[1].planned_utime, kStartUs + 510'000);
   EXPECT_EQ(events_[1].force[2], 0.3);
+}
+
+TEST_F(HandThrow, InAReleaseWindowAllFingersRetreatAndOpen) {
+  arm(0.04);
+  const HandAnswer held = run(1100);
+  HandAnswer answer = run(20);
+  EXPECT_EQ(answer.phase, Phase::kRelease);
+  for (const int joint : {model::kProximalA, model::kProximalThumb, model::kProximalB}) {
+    EXPECT_LT(answer.q[joint], held.q[joint]);
+    EXPECT_LT(answer.tau[joint], 0.1 * held.tau[joint]);
+    EXPECT_GT(answer.kp[joint], 0);
+  }
+  answer = run(18);
+  EXPECT_EQ(answer.phase, Phase::kClear)
+      << "2 ms after the retreat, whether the ball has left or not";
+  EXPECT_EQ(answer.tau[model::kProximalThumb], -experiment().hand.finger_torque_max);
+  answer = run(150);
+  EXPECT_NEAR(answer.q[model::kProximalThumb], config_.release.thumb.open_angle, 1e-9);
 }
 
 TEST_F(HandThrow, ABounceShorterThanTheQuietTimeIsNoDeparture) {

@@ -17,6 +17,8 @@ inline swing_plan_t planMessage(const HandPlan& plan) {
   message.t_swing_end = plan.arm.duration();
   message.t_release_command = plan.t_release_command;
   message.t_release = plan.t_release;
+  message.release_window[0] = plan.t_release - plan.window / 2;
+  message.release_window[1] = plan.t_release + plan.window / 2;
   message.grip_force = plan.grip_force;
   std::copy_n(plan.q_wrist.data(), 2, message.q_wrist);
   message.dt = plan.arm.dt();

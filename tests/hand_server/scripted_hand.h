@@ -40,8 +40,8 @@ inline model::SampledTrajectory turn(double angle) {
 }
 
 /// Swing from 0.2 s, release commanded at 0.5 s and expected 10 ms later, grip 4 N.
-inline HandPlan throwPlan(int64_t id = 1) {
-  return {id, 0.2, 0.5, 0.51, 4.0, Eigen::Vector2d(0.1, -0.05), turn(1.0)};
+inline HandPlan throwPlan(int64_t id = 1, double window = 0) {
+  return {id, 0.2, 0.5, 0.51, window, 4.0, Eigen::Vector2d(0.1, -0.05), turn(1.0)};
 }
 
 /// A hand whose joints are where they are told to be; one without stiffness is moved by its torque alone.

@@ -43,8 +43,8 @@ TEST(Servo, AFingerComesToRestFreeAndAgainstTheBall) {
        {0.0, 3e3, 6e3, 1.2e4}) {  // [N/m], of the ball from a light grip to a hard one
     PlanarFinger finger(experiment().hand, contact);
     for (int i = 0; i < 400; ++i)
-      finger.step(config.kp.segment<2>(model::kProximalThumb),
-                  config.kd.segment<2>(model::kProximalThumb));
+      finger.step(config.release.kp.segment<2>(model::kProximalThumb),
+                  config.release.kd.segment<2>(model::kProximalThumb));
     EXPECT_LT(finger.q.norm(), 1e-3 * 0.14) << contact << " N/m, after 40 ms";
   }
 }
@@ -69,10 +69,12 @@ TEST(Servo, WristAndSpreadComeToRest) {
   const double roll = hand.wrist_inertia + whole.I_BCom(2, 2);
   const double flexion =
       hand.wrist_inertia + whole.I_BCom(0, 0) + whole.mass * whole.p_BCom.z() * whole.p_BCom.z();
-  EXPECT_LT(remains(roll, config.kp[0], config.kd[0], hand.actuator_lag), 1e-3);
-  EXPECT_LT(remains(flexion, config.kp[1], config.kd[1], hand.actuator_lag), 1e-3);
+  EXPECT_LT(remains(roll, config.release.kp[0], config.release.kd[0], hand.actuator_lag), 1e-3);
+  EXPECT_LT(remains(flexion, config.release.kp[1], config.release.kd[1], hand.actuator_lag), 1e-3);
   // A finger parallel to the axis of its spread has hardly more than the inertia of the drive.
-  EXPECT_LT(remains(1.1 * hand.joint_inertia, config.kp[2], config.kd[2], hand.actuator_lag), 1e-3);
+  EXPECT_LT(remains(1.1 * hand.joint_inertia, config.release.kp[2], config.release.kd[2],
+                    hand.actuator_lag),
+            1e-3);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The thumb's way out of the ball's path.
-#include "hand_server/thumb_opening.h"
+#include "model/thumb_opening.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@ namespace fastball::hand_server {
 namespace {
 
 TEST(ThumbOpening, IsPushedThenGuidedWithoutAJump) {
-  const HandServerConfig config = loadConfig(kExperimentPath);
+  const model::ThumbOpening::Settings config = loadConfig(kExperimentPath).release.thumb;
   const double torque = experiment().hand.finger_torque_max;
-  ThumbOpening opening(config, torque);
+  model::ThumbOpening opening(config, torque);
   double q = -0.22, qd = 0;
   int pushed = 0, ticks = 0;
-  for (; q > config.thumb_open_angle + 1e-3 && ticks < 200; ++ticks) {
-    const ThumbOpening::Drive drive = opening.step(1000 * ticks, q, qd);
+  for (; q > config.open_angle + 1e-3 && ticks < 200; ++ticks) {
+    const model::ThumbOpening::Drive drive = opening.step(1000 * ticks, q, qd);
     if (drive.guided) {
       EXPECT_LT(std::abs(drive.q - q), 0.04) << "rad within a tick";
       EXPECT_LT(std::abs(drive.qd - qd), 2.5) << "rad/s within a tick";
@@ -31,17 +31,17 @@ TEST(ThumbOpening, IsPushedThenGuidedWithoutAJump) {
   }
   EXPECT_GT(pushed, 5);
   EXPECT_LT(ticks, 70) << "ms";
-  const ThumbOpening::Drive end = opening.step(1'000'000, q, qd);
-  EXPECT_EQ(end.q, config.thumb_open_angle);
+  const model::ThumbOpening::Drive end = opening.step(1'000'000, q, qd);
+  EXPECT_EQ(end.q, config.open_angle);
   EXPECT_EQ(end.qd, 0);
 }
 
 TEST(ThumbOpening, AThumbThatIsOpenStaysThere) {
-  const HandServerConfig config = loadConfig(kExperimentPath);
-  ThumbOpening opening(config, 1.2);
-  const ThumbOpening::Drive drive = opening.step(0, config.thumb_open_angle - 0.1, 0);
+  const model::ThumbOpening::Settings config = loadConfig(kExperimentPath).release.thumb;
+  model::ThumbOpening opening(config, 1.2);
+  const model::ThumbOpening::Drive drive = opening.step(0, config.open_angle - 0.1, 0);
   EXPECT_TRUE(drive.guided);
-  EXPECT_EQ(drive.q, config.thumb_open_angle);
+  EXPECT_EQ(drive.q, config.open_angle);
 }
 
 }  // namespace

@@ -35,18 +35,27 @@ inline HandParameters exampleHand() {
   hand.proximal_length = 0.06;
   hand.distal_length = 0.05;
   hand.finger_radius = 0.01;
+  hand.finger_mass = 0.1;
+  hand.joint_inertia = 1.5e-4;
+  hand.wrist_inertia = 1e-3;
+  hand.joint_speed_max = 31.4;
+  hand.finger_torque_max = 1.2;
+  hand.wrist_torque_max = 10;
+  hand.actuator_lag = 1e-3;
+  hand.payload.mass = 0.8;
+  hand.payload.p_BCom = {0, 0, 0.07};
+  hand.payload.I_BCom = Eigen::Vector3d(0.0013, 0.0013, 0.001).asDiagonal();
   return hand;
 }
 
-/// Grip, and a thumb that opens with all its torque.
-inline ReleaseCommand exampleRelease() {
-  ReleaseCommand release;
-  release.grip_force = 6;
-  release.thumb_delay = 0.001;
-  release.thumb_acceleration = 3000;
-  release.thumb_speed = 31.4;
-  release.finger_stiffness = 1.6e4;
-  return release;
+/// Servo gains, and an abrupt thumb.
+inline ReleaseSettings exampleRelease() {
+  ReleaseSettings settings;
+  settings.kp << 500, 1500, 30, 120, 50, 120, 50, 30, 120, 50;
+  settings.kd << 3, 8, 0.12, 0.5, 0.15, 0.5, 0.15, 0.12, 0.5, 0.15;
+  settings.thumb = {-1.5, 28, 1200};
+  settings.open_distance = 0.085;
+  return settings;
 }
 
 }  // namespace fastball::model

@@ -40,18 +40,12 @@ class Release : public ::testing::Test {
     ball_.drag_coefficient = 0;  // so that free motion is known
   }
   Departure predict(const std::function<HandMotion(double)>& hand_at, double time_step = 1e-4) {
-    return predictDeparture(ball_, hand_, command_, hand_at, gravity_, time_step);
-  }
-  /// A thumb that is gone within a step.
-  void openAtOnce() {
-    command_.thumb_delay = 0;
-    command_.thumb_acceleration = 1e9;
-    command_.thumb_speed = 1e6;
+    return predictDeparture(ball_, hand_, command_, hand_at, gravity_, nullptr, time_step);
   }
 
   BallParameters ball_ = exampleBall();
   Hand hand_{exampleHand()};
-  ReleaseCommand command_ = exampleRelease();
+  ReleaseCommand command_{6, ReleaseMode::kAbrupt, exampleRelease()};
   double gravity_ = 9.81;
 };
 
@@ -98,8 +92,7 @@ TEST_F(Release, AHardBallLeavesAtOnceWhenTheHandFallsBack) {
   gravity_ = 0;
   ball_.youngs_modulus = 1e8;
   command_.grip_force = 0.01;
-  command_.finger_stiffness = 0;
-  openAtOnce();
+  command_.ideal_drives = true;
   const Departure back = predict(sidearm(-40), 1e-6);
   ASSERT_TRUE(back.departed);
   EXPECT_LT(back.time, 1e-4);
@@ -132,12 +125,11 @@ TEST_F(Release, WithoutLossesTheGripEnergyBecomesSpeed) {
   gravity_ = 0;
   ball_.damping_ratio = 0;
   ball_.friction = 0;
-  openAtOnce();
+  command_.ideal_drives = true;
   for (const double grip : {0.1, 2.0, 6.0, 12.0}) {
     command_.grip_force = grip;
     const FingerGrasp rear = grasp(ball_, hand_, grip).fingers[kFingerA];
-    const double energy = 2 * (elasticEnergy(ball_, rear.deformation) +
-                               rear.force * rear.force / command_.finger_stiffness / 2);
+    const double energy = 2 * elasticEnergy(ball_, rear.deformation);
     const Departure departure = predict(sidearm(0), 1e-6);
     ASSERT_TRUE(departure.departed);
     const double kick = std::sqrt(2 * energy / ball_.mass);
@@ -153,8 +145,7 @@ TEST_F(Release, RollsInTheGrooveOfTheTwoFingers) {
   gravity_ = 0;
   ball_.youngs_modulus = 1e5;  // 2 mm of deformation in the fingers
   command_.grip_force = 0.5;
-  command_.finger_stiffness = 0;
-  openAtOnce();
+  command_.ideal_drives = true;
   const double forward = 60, drive = 5, time = 0.05;
   const auto pushed = [=](double t) {
     HandMotion hand = sidearm(forward)(t);
@@ -166,7 +157,8 @@ TEST_F(Release, RollsInTheGrooveOfTheTwoFingers) {
     hand.a_WH -= drive * z;
     return hand;
   };
-  const Departure rolling = predictDeparture(ball_, hand_, command_, pushed, gravity_, 2e-5, time);
+  const Departure rolling =
+      predictDeparture(ball_, hand_, command_, pushed, gravity_, nullptr, 2e-5, time);
   EXPECT_FALSE(rolling.departed);
   const double z = (pushed(time).X_WH.inverse() * rolling.ball.p_WBall).z() - 0.15;
   const double y = deformation(ball_, ball_.mass * forward / (2 * std::cos(M_PI / 6)));
@@ -177,54 +169,76 @@ TEST_F(Release, RollsInTheGrooveOfTheTwoFingers) {
   EXPECT_NEAR(rolling.w_WBall.norm(), factor * drive * time / height, 0.05);
 }
 
-TEST_F(Release, ASoftFingerKeepsTheBallsDampingOut) {
-  // Almost all of the travel is the finger's, so that the ball's own losses hardly count.
-  gravity_ = 0;
-  ball_.youngs_modulus = 1e7;
-  command_.finger_stiffness = 500;
-  openAtOnce();
-  ball_.damping_ratio = 0;
-  const double lossless = predict(sidearm(0), 1e-5).ball.v_WBall.x() - 6;
-  ball_.damping_ratio = 0.5;
-  const double damped = predict(sidearm(0), 1e-5).ball.v_WBall.x() - 6;
-  EXPECT_GT(lossless, 0.5);
-  EXPECT_NEAR(damped, lossless, 0.05 * lossless);
-}
-
 TEST_F(Release, IsInBalanceAtTheCommand) {
   // Even without damping of its own the ball does not swing in the grip of a hand that slows down.
   ball_.damping_ratio = 0;
-  const auto relative = [&](double delay) {
-    command_.thumb_delay = delay;
-    const Departure departure = predict(sidearm(-40));
+  const auto relative = [&](double lag) {
+    HandParameters parameters = exampleHand();
+    parameters.actuator_lag = lag;
+    const Departure departure =
+        predictDeparture(ball_, Hand(parameters), command_, sidearm(-40), gravity_);
     return departure.ball.v_WBall.x() - (6 - 40 * departure.time);
   };
-  for (const double delay : {1e-3, 2e-3, 3e-3, 4e-3, 5e-3})
-    EXPECT_NEAR(relative(delay), relative(0), 5e-3);
+  for (const double lag : {1e-3, 1.5e-3, 2e-3})
+    EXPECT_NEAR(relative(lag), relative(5e-4), 3e-2);
 }
 
-TEST_F(Release, TheThumbsDelayDelaysTheBall) {
+TEST_F(Release, ASynchronousRetreatLeavesTheBallAloneHoweverHardItIs) {
+  // A hand that flies the ball's own path.
+  const auto falling = [](double t) {
+    HandMotion hand = sidearm(0)(t);
+    const Eigen::Vector3d g(0, 0, -9.81);
+    hand.X_WH.translation() += t * t / 2 * g;
+    hand.v_WH += t * g;
+    hand.a_WH += g;
+    return hand;
+  };
+  const auto kick = [&](ReleaseMode mode) {
+    command_.mode = mode;
+    const Departure left = predict(falling);
+    EXPECT_TRUE(left.departed);
+    const Eigen::Vector3d v = left.ball.v_WBall - falling(left.time).v_WH;
+    // The arc of the opening fingers draws the ball along the hand's z axis a little.
+    EXPECT_LT(v.tail<2>().norm(), 0.06);
+    return std::abs(v.x());
+  };
+  for (const double modulus : {3e5, 5e5, 1e6}) {
+    // The hand holds it by its force, wherever it finds the surface: the grasp is that of this ball.
+    ball_.youngs_modulus = modulus;
+    EXPECT_GT(kick(ReleaseMode::kAbrupt), 0.2) << modulus;
+    EXPECT_LT(kick(ReleaseMode::kThumbFade), 0.2) << modulus;
+    EXPECT_LT(kick(ReleaseMode::kSyncRetreat), 0.02) << modulus;
+  }
+}
+
+TEST_F(Release, AnArmThatGivesWayIsPushedBackByTheThumb) {
+  // A hand that nothing but its inertia holds: 0.8 kg that may move along x of the world, the way of the throw.
+  HandSupport support;
+  support.M *= 1e9;
+  support.M(0, 0) = 0.8;
+  support.J(0, 0) = 1;
+  const auto straight = sidearm(0);
   gravity_ = 0;
-  const Departure soon = predict(sidearm(0));
-  command_.thumb_delay += 5e-3;
-  const Departure late = predict(sidearm(0));
-  EXPECT_NEAR(late.time - soon.time, 5e-3, 1e-9);
-  EXPECT_LT((late.ball.v_WBall - soon.ball.v_WBall).norm(), 1e-3);
+  const Departure free = predictDeparture(ball_, hand_, command_, straight, gravity_, &support);
+  const Departure firm = predict(straight);
+  // The thumb (0.1 kg) leaves with some metres per second.
+  EXPECT_LT(free.ball.v_WBall.x(), firm.ball.v_WBall.x() - 0.05);
+  EXPECT_GT(free.ball.v_WBall.x(), firm.ball.v_WBall.x() - 0.3);
 }
 
-TEST_F(Release, AThumbThatDoesNotOpenKeepsTheBall) {
-  command_.thumb_acceleration = 0;
+TEST_F(Release, AHandThatIsNotToldToOpenKeepsTheBall) {
+  command_.mode = ReleaseMode::kSyncRetreat;
+  command_.settings.relax_time = 10;
   const Departure held = predict(sidearm(-40, 5));
   EXPECT_FALSE(held.departed);
-  // Held by friction against gravity and all: less than half a millimetre from its place.
+  // Held by friction against gravity and all: less than a millimetre from its place.
   const HandMotion hand = sidearm(-40, 5)(0.1);
   const Eigen::Vector3d place = hand.X_WH.inverse() * held.ball.p_WBall;
-  EXPECT_LT((place - exampleHand().p_HBall).norm(), 5e-4);
+  EXPECT_LT((place - exampleHand().p_HBall).norm(), 1e-3);
 }
 
 TEST_F(Release, ASwingTooFastForTheGripLosesTheBallBefore) {
   command_.grip_force = 0.5;
-  command_.thumb_acceleration = 0;
   const auto spun = [](double t) {
     HandMotion hand = sidearm(0, 60)(t);
     // About the shoulder instead of about the ball: 0.5 m further in, 60 rad/s.
@@ -244,7 +258,7 @@ TEST_F(Release, ConvergesWithTheTimeStep) {
   for (const double step : {2e-4, 1e-4, 2.5e-5}) {
     const Departure coarse = predict(sidearm(-40, 10), step);
     const double error = (coarse.ball.v_WBall - fine.ball.v_WBall).norm();
-    EXPECT_LT(error, 100 * step + 1e-3) << step;
+    EXPECT_LT(error, 130 * step) << step;
     EXPECT_LT(error, error_before);
     EXPECT_NEAR(coarse.time, fine.time, 2.5 * step);
     error_before = error;

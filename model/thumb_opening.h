@@ -2,20 +2,25 @@
 
 #include <cstdint>
 
-#include "hand_server/config.h"
-
-namespace fastball::hand_server {
+namespace fastball::model {
 
 /// Lets the thumb go (section 3.1): pushed open with all its torque and no stiffness, so that it leaves the ball abruptly; fast
 /// enough or near its end it is guided, and then held open.
 class ThumbOpening {
  public:
+  /// How the thumb opens; config/experiment.yaml has the reason of each number.
+  struct Settings {
+    double open_angle = 0;    ///< [rad], proximal joint of the open thumb
+    double speed = 0;         ///< [rad/s], at which the opening thumb is pushed no further
+    double deceleration = 1;  ///< [rad/s^2], at the end of its way
+  };
+
   ThumbOpening() = default;
-  /// @param torque_max [N m] of the drive; @param now [us], the moment of release.
-  ThumbOpening(const HandServerConfig& config, double torque_max)
-      : open_angle_(config.thumb_open_angle),
-        switch_speed_(config.thumb_speed),
-        deceleration_(config.thumb_deceleration),
+  /// @param torque_max [N m] of the drive.
+  ThumbOpening(const Settings& settings, double torque_max)
+      : open_angle_(settings.open_angle),
+        switch_speed_(settings.speed),
+        deceleration_(settings.deceleration),
         torque_max_(torque_max) {}
 
   /// What the proximal joint of the thumb shall do.
@@ -37,4 +42,4 @@ class ThumbOpening {
   double q_guide_ = 0, speed_ = 0;  ///< where and how fast the guided part begins
 };
 
-}  // namespace fastball::hand_server
+}  // namespace fastball::model

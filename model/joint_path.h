@@ -4,21 +4,18 @@
 
 #include "model/hand.h"
 
-namespace fastball::hand_server {
+namespace fastball::model {
 
 /// All joints of the hand from one posture to another, smoothly: at rest at both ends, with two continuous derivatives.
 class JointPath {
  public:
   JointPath() = default;
   /// @param start_utime [us], simulated; @param duration [s], positive.
-  JointPath(const model::HandVector& from,
-            const model::HandVector& to,
-            int64_t start_utime,
-            double duration)
+  JointPath(const HandVector& from, const HandVector& to, int64_t start_utime, double duration)
       : from_(from), to_(to), start_utime_(start_utime), duration_(duration) {}
 
   struct Point {
-    model::HandVector q, qd;  ///< [rad], [rad/s]
+    HandVector q, qd;  ///< [rad], [rad/s]
   };
   Point at(int64_t utime) const {
     const double s = progress(utime), s2 = s * s;
@@ -32,9 +29,9 @@ class JointPath {
     return std::clamp(static_cast<double>(utime - start_utime_) / (1e6 * duration_), 0.0, 1.0);
   }
 
-  model::HandVector from_ = model::HandVector::Zero(), to_ = model::HandVector::Zero();
+  HandVector from_ = HandVector::Zero(), to_ = HandVector::Zero();
   int64_t start_utime_ = 0;
   double duration_ = 1;
 };
 
-}  // namespace fastball::hand_server
+}  // namespace fastball::model

@@ -1,9 +1,9 @@
-#include "hand_server/thumb_opening.h"
+#include "model/thumb_opening.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fastball::hand_server {
+namespace fastball::model {
 
 ThumbOpening::Drive ThumbOpening::step(int64_t utime, double q, double qd) {
   const double speed = std::max(-qd, 0.0);
@@ -36,4 +36,4 @@ ThumbOpening::Drive ThumbOpening::guide(double t) const {
   return {open_angle_ + deceleration * left * left / 2, -deceleration * left, 0, true};
 }
 
-}  // namespace fastball::hand_server
+}  // namespace fastball::model
