@@ -192,6 +192,7 @@ json atlasKey(const PlannerConfig& config) {
           {"robust",
            {{"window_lengths", config.robust.window_lengths},
             {"limit_share", config.robust.limit_share},
+            {"wanted_speed", config.robust.wanted_speed},
             {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
           {"grid",
            {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};

@@ -40,6 +40,7 @@ RobustSettings readRobust(config::Section section) {
   const Eigen::VectorXd lengths = section.vector("window_lengths", 2, {0.005, 0.1});
   robust.window_lengths.assign(lengths.begin(), lengths.end());
   robust.limit_share = section.number("limit_share", {0.5, 1});
+  robust.wanted_speed = section.number("wanted_speed", {0, 20});
   config::Section errors = section.section("errors");
   robust.errors.joint_speed = errors.number("joint_speed", {0, 1});
   robust.errors.grasp = errors.number("grasp", {0, 0.05});

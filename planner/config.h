@@ -15,6 +15,7 @@ namespace fastball::planner {
 struct RobustSettings {
   std::vector<double> window_lengths;  ///< [s], in the order in which they are tried
   double limit_share = 0;              ///< of speed and torque limits, used by the optimisation
+  double wanted_speed = 0;             ///< [m/s], of the ball in the window: less is avoided
   ThrowErrors errors;
 };
 

@@ -17,6 +17,7 @@ constexpr double kReserve = 0.002;    // of a limit, kept for what happens betwe
 constexpr double kErrorScale = 0.05;  // [m], a landing so far off counts 1
 constexpr double kPaceWeight =
     0.45;  // a push of 20 m/s^2 counts 1: it is pace * dv/dT, and dv/dT is about 9 m/s^2
+constexpr double kSlow = 0.1;        // [m/s] too slow, counts 1
 constexpr double kOutOfReach = 1e8;  // of the sum, where the arm cannot follow
 constexpr double kUnreachable = 10;  // violation there
 
@@ -135,6 +136,7 @@ WindowCost::Sum WindowCost::at(const WindowVector& v, bool with_slopes) {
   addArrival(sum);
   addErrors(x, sum);
   addPush(x, sum);
+  addSlowness(sum);
   if (problem_.nearness > 0)
     addNearness(v, sum);
   return sum;
@@ -283,6 +285,17 @@ void WindowCost::addPush(const WindowThrow& x, Sum& sum) {
     slope[kPace + 1] = share * kPaceWeight;
     sum.add(slope[kPace] * x.window.pace[0] + slope[kPace + 1] * x.window.pace[1], slope);
   }
+}
+
+void WindowCost::addSlowness(Sum& sum) {
+  const Eigen::Vector3d& v = motion_.ball.front().v_WBall;
+  const double missing = problem_.wanted_speed - v.norm();
+  if (!(missing > 0))
+    return;
+  ByWindowRow slope = ByWindowRow::Zero();
+  if (sum.with_slopes)
+    slope = -v.normalized().transpose() * slopes_.v_WBall.front() / kSlow;
+  sum.add(missing / kSlow, byThrow(slope));
 }
 
 }  // namespace fastball::planner

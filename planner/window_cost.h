@@ -49,6 +49,7 @@ class WindowCost {
   void addArrival(Sum& sum);
   void addErrors(const WindowThrow& x, Sum& sum);
   void addPush(const WindowThrow& x, Sum& sum);
+  void addSlowness(Sum& sum);
   void addNearness(const WindowVector& x, Sum& sum);
 
   const WindowProblem& problem_;

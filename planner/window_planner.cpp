@@ -97,6 +97,7 @@ WindowProblem WindowPlanner::problemFor(const ThrowRequest& request, const Windo
   problem.hand = &hand_;
   problem.settings = config_.swing;
   problem.n_WTarget = request.target.n_WTarget;
+  problem.wanted_speed = config_.robust.wanted_speed;
   problem.errors = config_.robust.errors;
   problem.limit_factor = kind.limit_share;
   problem.length = kind.length;

@@ -43,6 +43,7 @@ struct WindowProblem {
   const model::Hand* hand = nullptr;
   SwingSettings settings;
   Eigen::Vector3d n_WTarget = -Eigen::Vector3d::UnitX();
+  double wanted_speed = 0;  ///< [m/s], at the window's begin: less costs
   ThrowErrors errors;
   double limit_factor = 1;   ///< the share of speed and torque limits that may be used
   double length = 0;         ///< [s], of the window

@@ -187,6 +187,7 @@ TEST(RestQuartic, SlopesAreThoseOfDifferences) {
 TEST_F(Window, CostGradientIsThatOfDifferences) {
   WindowProblem limited = problem(0.04);
   limited.limit_factor = 0.7;  // many limits are exceeded: every kind of row counts
+  limited.wanted_speed = 8;    // none is as fast
   WindowCost cost(limited);
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
