@@ -18,10 +18,9 @@ constexpr double kLargestLoad = 18.0;
 constexpr double kPi = 3.14159265358979323846;
 
 void readFingers(Section& file, model::HandParameters* hand) {
-  const Eigen::VectorXd azimuth = file.vector("azimuth", model::kFingers, {-kPi, kPi});
-  for (int i = 0; i < model::kFingers; ++i) {
-    hand->azimuth[i] = azimuth[i];
-  }
+  const bool even = file.choice("layout", {"two_behind", "even"}) == "even";
+  const double behind = even ? kPi / 3 : kPi / 6;  // [rad], of A and B from -y
+  hand->azimuth = {-kPi / 2 - behind, kPi / 2, -kPi / 2 + behind};
   hand->finger_mass = file.number("finger_mass", kPositive);
   hand->base_radius = file.number("base_radius", {0, 1});
   hand->base_distance = file.number("base_distance", {0, 1});

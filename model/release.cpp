@@ -119,6 +119,9 @@ class BallInHand {
     return touched;
   }
 
+  /// The ball has left: all fingers open, t [s] after the command.
+  void open(double t) { release_.open(std::llround(1e6 * t)); }
+
   const BallState& state() const { return state_; }
   const Eigen::Vector3d& spin() const { return w_WBall_; }
 
@@ -215,6 +218,27 @@ void requirePositive(double value, const char* name) {
   throw std::invalid_argument(message.str());
 }
 
+struct WatchedTime {
+  double from, to, step;  ///< [s]
+};
+
+/// Time [s] at which the hand touches the free ball again, or a negative one. `tick`: steps between two commands.
+double watch(BallInHand& held,
+             const std::function<HandMotion(double)>& hand_at,
+             const WatchedTime& time,
+             long tick) {
+  held.open(time.from);
+  for (long i = 0;; ++i) {
+    const double t = time.from + static_cast<double>(i) * time.step;
+    if (t >= time.to)
+      return -1;
+    if (t >= 0 && i % tick == 0)
+      held.command(t);
+    if (held.step(hand_at(t), time.step, 0))
+      return t;
+  }
+}
+
 }  // namespace
 
 Departure predictDeparture(const BallParameters& ball,
@@ -224,7 +248,8 @@ Departure predictDeparture(const BallParameters& ball,
                            double gravity,
                            const HandSupport* support,
                            double time_step,
-                           double max_time) {
+                           double max_time,
+                           double watch_time) {
   requirePositive(ball.mass, "the ball's mass [kg]");
   requirePositive(time_step, "the time step [s]");
   BallInHand held(ball, hand, command, support, gravity);
@@ -241,6 +266,7 @@ Departure predictDeparture(const BallParameters& ball,
       last = {false, 0, held.state(), held.spin()};
     if (t >= 0 && t - last.time >= kQuietTime) {
       last.departed = true;
+      last.touched_again = watch(held, hand_at, {t, last.time + watch_time, time_step}, tick);
       return last;
     }
     if (i >= settle_steps && (i - settle_steps) % tick == 0)

@@ -29,6 +29,8 @@ struct Departure {
       0;  ///< [s] after the command, last touch; negative if the swing lost the ball before
   BallState ball;                                     ///< at that time
   Eigen::Vector3d w_WBall = Eigen::Vector3d::Zero();  ///< [rad/s]
+  /// [s] after the command, when the hand touches the ball again within the time looked at; negative: it does not.
+  double touched_again = -1;
 };
 
 /// Integrates the ball between fingers and palm (Eq. 27 with damping and bristle friction, 3-D) and the fingers under their
@@ -37,6 +39,7 @@ struct Departure {
 /// acceleration when the fingers begin to let go.
 /// @param hand_at the hand's planned motion t [s] after the command, asked for from t = -0.06 s on.
 /// @param support what gives way when fingers and ball push the hand away from its plan; null: nothing.
+/// @param watch_time [s] after the departure, in which the ball is watched: whether finger or palm touches it again.
 /// @throw std::invalid_argument if the grip is more than the ball can carry or does not fit the hand (see grasp()), or if mass
 /// or time step are not positive.
 Departure predictDeparture(const BallParameters& ball,
@@ -46,6 +49,7 @@ Departure predictDeparture(const BallParameters& ball,
                            double gravity,
                            const HandSupport* support = nullptr,
                            double time_step = 1e-4,
-                           double max_time = 0.1);
+                           double max_time = 0.1,
+                           double watch_time = 0);
 
 }  // namespace fastball::model

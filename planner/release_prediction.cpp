@@ -11,6 +11,8 @@ namespace {
 constexpr double kEarliest = -0.02,
                  kLatest = 0.02;  // [s], about t = 0, in which Eq. (24) comes true
 constexpr double kStep = 1e-4;    // [s]
+// [s] after it has left, nothing of the hand touches the ball
+constexpr double kClearTime = 0.15;
 
 }  // namespace
 
@@ -24,7 +26,9 @@ PredictDeparture elasticDeparture(const PlannerConfig& config) {
              const model::HandSupport& support, model::ReleaseMode mode) {
     model::ReleaseCommand in_mode = command;
     in_mode.mode = mode;
-    return model::predictDeparture(ball, hand, in_mode, hand_at, gravity, &support);
+    constexpr double kTimeStep = 1e-4, kMaxTime = 0.1;  // [s]
+    return model::predictDeparture(ball, hand, in_mode, hand_at, gravity, &support, kTimeStep,
+                                   kMaxTime, kClearTime);
   };
 }
 
@@ -62,7 +66,7 @@ std::optional<ReleasePrediction> ReleasePredictor::predict(const WholeMotion& mo
   const model::Departure left = departure_(
       [&](double t) { return handMotion(arm_, hand_, wrist, motion.trajectory.at(t_command + t)); },
       support, config_.release.modeFor(motion.window));
-  if (!left.departed || left.time < 0)
+  if (!left.departed || left.time < 0 || left.touched_again >= 0)
     return {};
   const std::optional<model::Landing> landing =
       model::land(left.ball, target, config_.ball.dragPerMetre(), config_.arm.gravity);
@@ -92,7 +96,10 @@ double ReleasePredictor::commandTime(const WholeMotion& motion) const {
       break;
     t -= kStep;
   }
-  return 1e-3 * std::round(1e3 * (t - config_.hand.actuator_lag));
+  const model::ReleaseSettings& release = config_.release;
+  const double later = release.delayOf(release.modeFor(motion.window)) -
+                       release.delayOf(model::ReleaseMode::kAbrupt);
+  return 1e-3 * std::round(1e3 * (t - config_.hand.actuator_lag - later));
 }
 
 double ReleasePredictor::windowCommandTime(const WholeMotion& motion) const {

@@ -38,7 +38,8 @@ class ReleasePredictor {
  public:
   ReleasePredictor(const PlannerConfig& config, const model::Arm& arm, PredictDeparture departure);
 
-  /// The throw when the hand is told to let go at t_command; nothing if the ball does not leave or does not reach the plane.
+  /// The throw when the hand is told to let go at t_command; nothing if the ball does not leave, the hand touches it again within
+  /// 150 ms, or it does not reach the plane.
   std::optional<ReleasePrediction> predict(const WholeMotion& motion,
                                            const WristAngles& wrist,
                                            const model::Target& target,
@@ -47,7 +48,8 @@ class ReleasePredictor {
   std::optional<ReleasePrediction> predict(const WholeMotion& motion,
                                            const model::Target& target,
                                            double t_command) const;
-  /// The whole millisecond at which to let go: the thumb begins to move when Eq. (24) comes true near the swing's t = 0.
+  /// The whole millisecond at which to let go: an abrupt thumb begins to move when Eq. (24) comes true near the swing's t = 0,
+  /// slower modes begin as much earlier as they take longer.
   double commandTime(const WholeMotion& motion) const;
   /// The whole millisecond at which to let go in a release window, so that the ball leaves in its middle.
   double windowCommandTime(const WholeMotion& motion) const;

@@ -211,6 +211,39 @@ TEST_F(Release, ASynchronousRetreatLeavesTheBallAloneHoweverHardItIs) {
   }
 }
 
+TEST_F(Release, ThreeFingersSpacedEvenlyLetGoByARetreatButNotByAThumb) {
+  HandParameters parameters = exampleHand();
+  parameters.azimuth = {-5 * M_PI / 6, M_PI / 2, -M_PI / 6};
+  const Hand even(parameters);
+  const GraspGeometry held = grasp(ball_, even, 6);
+  for (const FingerGrasp& finger : held.fingers)
+    EXPECT_NEAR(finger.force, 6, 1e-9);
+  command_.mode = ReleaseMode::kSyncRetreat;
+  gravity_ = 0;
+  const Departure left = predictDeparture(ball_, even, command_, sidearm(0), gravity_);
+  EXPECT_TRUE(left.departed);
+  EXPECT_LT((left.ball.v_WBall - Eigen::Vector3d(6, 0, 0)).norm(), 0.06);
+  command_.mode = ReleaseMode::kAbrupt;
+  ball_.friction =
+      1;  // its cone is wider than the 30 degrees between a finger and the line of A and B
+  EXPECT_FALSE(predictDeparture(ball_, even, command_, sidearm(0), gravity_).departed);
+}
+
+TEST_F(Release, SaysWhenTheHandRunsIntoTheBallAgain) {
+  const auto watched = [&](double brake) {
+    return predictDeparture(ball_, hand_, command_, sidearm(-brake), gravity_, nullptr, 1e-4, 0.1,
+                            0.15);
+  };
+  const Departure clear = watched(40);
+  EXPECT_TRUE(clear.departed);
+  EXPECT_LT(clear.touched_again, 0);
+  // A hand that goes on accelerating catches up.
+  const Departure caught = watched(-8);
+  ASSERT_TRUE(caught.departed);
+  EXPECT_GT(caught.touched_again, caught.time);
+  EXPECT_LT(caught.touched_again, caught.time + 0.15);
+}
+
 TEST_F(Release, AnArmThatGivesWayIsPushedBackByTheThumb) {
   // A hand that nothing but its inertia holds: 0.8 kg that may move along x of the world, the way of the throw.
   HandSupport support;
