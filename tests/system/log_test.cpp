@@ -105,7 +105,7 @@ TEST_F(RecordedThrow, DrawsItself) {
   std::string header, line;
   std::getline(table, header);
   std::getline(table, line);
-  EXPECT_THAT(line, testing::StartsWith("1,paper,"));
+  EXPECT_THAT(line, testing::StartsWith("1,robust,"));
 }
 
 TEST_F(RecordedThrow, IsFollowedByWhatTheRunWas) {
