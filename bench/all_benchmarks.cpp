@@ -1,3 +1,4 @@
+#include "bench/contact_rows.h"
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
 #include "bench/plan_rows.h"
@@ -13,7 +14,7 @@ std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
   for (const auto& some :
        {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), sceneBenchmarks(),
-        planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+        contactBenchmarks(), planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
