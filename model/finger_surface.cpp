@@ -1,5 +1,6 @@
 #include "model/finger_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -35,6 +36,26 @@ std::vector<FingerSurface> FingerPair::surfaces(double ball_radius) const {
     return {{X_HF * Eigen::Vector3d(0, -depth, 0), R.col(0), finger_radius}};
   return {{X_HF * Eigen::Vector3d(0, -depth, half_spacing), R.col(0), finger_radius},
           {X_HF * Eigen::Vector3d(0, -depth, -half_spacing), R.col(0), finger_radius}};
+}
+
+FingerPair fingersBehind(const HandParameters& hand, double ball_radius) {
+  const auto normal = [&](Finger finger) {
+    return Eigen::Vector3d(-std::cos(hand.azimuth[finger]), -std::sin(hand.azimuth[finger]), 0);
+  };
+  const Eigen::Vector3d between = normal(kFingerA) + normal(kFingerB);
+  constexpr double kOpposite = 1e-6;
+  if (!(between.norm() > kOpposite))
+    throw std::invalid_argument(
+        "fingers A and B stand on opposite sides of the ball: none is behind it");
+  FingerPair fingers;
+  fingers.X_HF.linear().col(0) = Eigen::Vector3d::UnitZ();
+  fingers.X_HF.linear().col(1) = between.normalized();
+  fingers.X_HF.linear().col(2) = Eigen::Vector3d::UnitZ().cross(between.normalized());
+  fingers.X_HF.translation() = hand.p_HBall;
+  fingers.finger_radius = hand.finger_radius;
+  const double half_angle = std::acos(std::min(1.0, between.norm() / 2));
+  fingers.half_spacing = (ball_radius + hand.finger_radius) * std::sin(half_angle);
+  return fingers;
 }
 
 FingerFrameMotion fingerFrameMotion(const FingerPair& fingers, const HandMotion& hand) {

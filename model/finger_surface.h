@@ -44,6 +44,10 @@ struct FingerPair {
   std::vector<FingerSurface> surfaces(double ball_radius) const;
 };
 
+/// The hand's fingers A and B where they touch the ball in its nominal place without pressing, y between their normals.
+/// @throw std::invalid_argument if they stand on opposite sides of the ball.
+FingerPair fingersBehind(const HandParameters& hand, double ball_radius);
+
 /// The fingers' frame, its origin's velocity [m/s] and acceleration [m/s^2] and the hand's turning, everything in F's own axes
 /// (the primed quantities of Eq. 18).
 struct FingerFrameMotion {

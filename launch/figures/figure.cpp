@@ -71,7 +71,11 @@ const std::vector<Figure>& allFigures() {
       {"fig05", "The optimal swing of the first model (Fig. 5)", drawLevelSwing},
       {"fig05b", "The planned swing of the analogous model on the arm (section 2.6)",
        drawPlannedSwing},
+      {"fig08", "Rolling distance and normal force (Fig. 8)", drawRollingRange},
+      {"fig09", "What rolling does for the direction of the throw (Fig. 9)", drawReleaseShift},
       {"fig11", "The planned throw on the simulated arm (Fig. 11)", drawTracking},
+      {"fig14_15", "The elastic ball: force, displacement and delay (Figs. 14, 15)",
+       drawElasticRelease},
       {"fig_budget", "What the kinetic chain is worth", drawTorqueBudget},
       {"fig_cost", "What planning costs", drawPlanCost},
   };

@@ -7,7 +7,7 @@
 
 #include "config/experiment.h"
 
-/// The paper's figures of section 2 and 4.3, computed anew by this program.
+/// The paper's figures of sections 2, 3, 4.3 and 5, computed anew by this program.
 namespace fastball::launch {
 
 /// What figures are drawn from, and where to.
@@ -41,7 +41,10 @@ void writeFigures(const FigureTask& task,
 std::string drawPassiveBend(const FigureTask& task);
 std::string drawLevelSwing(const FigureTask& task);
 std::string drawPlannedSwing(const FigureTask& task);
+std::string drawRollingRange(const FigureTask& task);
+std::string drawReleaseShift(const FigureTask& task);
 std::string drawTracking(const FigureTask& task);
+std::string drawElasticRelease(const FigureTask& task);
 std::string drawTorqueBudget(const FigureTask& task);
 std::string drawPlanCost(const FigureTask& task);
 
