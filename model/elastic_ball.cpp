@@ -53,7 +53,9 @@ class ElasticBall {
     State y = startState(start);
     bool touching = presses(t, y);
     leave(t, y);
-    while (t < task_.t_end && (touching || t < motion_.t_release + kQuietTime)) {
+    const int tip = static_cast<int>(surfaces_.size()) + 1;
+    while (t < task_.t_end && !motion_.rolled_off &&
+           (touching || t < motion_.t_release + kQuietTime)) {
       const double end_of_piece =
           touching ? task_.t_end : std::min(task_.t_end, motion_.t_release + kQuietTime);
       const EventEnd end = integrateToEvent(piece(touching), t, y, end_of_piece);
@@ -63,10 +65,11 @@ class ElasticBall {
         leave(t, y);
       if (end.event == 0)
         touching = !touching;
-      if (end.event > 0)
+      if (end.event > 0 && end.event < tip)
         y.segment<3>(bristle(end.event - 1)).setZero();
+      motion_.rolled_off = end.event == tip && touching;
     }
-    motion_.released = !touching && t >= motion_.t_release + kQuietTime;
+    motion_.released = motion_.rolled_off || (!touching && t >= motion_.t_release + kQuietTime);
     if (!motion_.released)
       leave(t, y);
     motion_.elastic.push_back(sampleAt(t, y));
@@ -177,7 +180,8 @@ class ElasticBall {
     return dy;
   }
 
-  /// Until the last finger stops pressing or the first one starts (event 0), or one comes apart (its number + 1).
+  /// Until the last finger stops pressing or the first one starts (event 0), one comes apart (its number + 1), or the ball is at
+  /// the fingertips (the event after those).
   EventTask piece(bool touching) {
     EventTask piece;
     piece.derivative = [this](double t, const State& y) { return rate(t, y); };
@@ -188,6 +192,10 @@ class ElasticBall {
         return press(static_cast<int>(i), hand_at_(t), y).y;
       });
     }
+    piece.events.push_back([this](double t, const State& y) {
+      const Eigen::Isometry3d X_WF = hand_at_(t).X_WH * fingers_.X_HF;
+      return task_.fingertip - (X_WF.inverse() * Vector3d(y.segment<3>(kPlace))).x();
+    });
     piece.sample = [this](double t, const State& y) { motion_.elastic.push_back(sampleAt(t, y)); };
     piece.sample_step = task_.sample_step;
     piece.tolerance = task_.tolerance;

@@ -46,7 +46,8 @@ class RollingBall {
       const EventEnd end = integrateToEvent(piece(), t, y, task_.t_end);
       t = end.t;
       y = end.y;
-      on = end.event != 0;
+      on = end.event < 0 || end.event == 1;
+      motion_.rolled_off = end.event == 2;
       if (end.event == 1)
         begin(t, y);
     }
@@ -113,7 +114,7 @@ class RollingBall {
     return dy;
   }
 
-  /// Until the ball leaves (event 0), or slips or stops slipping (event 1).
+  /// Until the ball leaves (event 0), slips or stops slipping (event 1), or comes to the fingertips (event 2).
   EventTask piece() {
     EventTask piece;
     piece.derivative = [this](double t, const Eigen::VectorXd& y) { return rate(t, y); };
@@ -122,7 +123,8 @@ class RollingBall {
                       const Balance b = balance(t, y);
                       return contact_ == Contact::kRolls ? limit(b) - std::abs(rollingFriction(b))
                                                          : slip_sign_ * slip(b, y);
-                    }};
+                    },
+                    [this](double, const Eigen::VectorXd& y) { return task_.fingertip - y[kX]; }};
     piece.sample = [this](double t, const Eigen::VectorXd& y) {
       motion_.samples.push_back(sampleAt(t, y));
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "model/ball_flight.h"
@@ -16,6 +17,8 @@ struct RollingTask {
   double gravity = 9.81;  ///< [m/s^2], along -z of the world
   double sample_step = 1e-4;  ///< [s]
   double tolerance = 1e-10;   ///< of the integration: SI, absolute and relative
+  /// x' [m] of the fingertips: a ball that has rolled there comes off, with the velocity it has.
+  double fingertip = std::numeric_limits<double>::infinity();
 };
 
 /// The ball on its fingers at one time.
@@ -33,6 +36,7 @@ struct RollingSample {
 struct RollingMotion {
   std::vector<RollingSample> samples;  ///< at whole multiples of the sample step, and at the end
   bool released = false;               ///< the normal force came to zero; false: still on at t_end
+  bool rolled_off = false;             ///< released at the fingertips instead
   double t_release = 0;                ///< [s], or t_end
   double t_slip = -1;                  ///< [s], first slip; negative: none
   BallState ball;                      ///< at t_release, in the world; Eq. (23)

@@ -52,8 +52,9 @@ class RollingBall3d {
       const EventEnd end = integrateToEvent(piece(), t, y, task_.t_end);
       t = end.t;
       y = end.y;
-      on = end.event != 0;
-      if (end.event == 1)
+      on = end.event < 0 || end.event == 2;
+      motion_.rolled_off = end.event == 1;
+      if (end.event == 2)
         begin(t, y);
     }
     motion_.released = !on;
@@ -177,11 +178,16 @@ class RollingBall3d {
     return dy;
   }
 
-  /// Until the ball leaves (event 0), or slips or stops slipping (event 1).
+  /// Until the ball leaves (event 0), comes to the fingertips (event 1), or slips or stops slipping (event 2).
   EventTask piece() {
     EventTask piece;
     piece.derivative = [this](double t, const Eigen::VectorXd& y) { return rate(t, y); };
-    piece.events = {[this](double t, const Eigen::VectorXd& y) { return normalForce(t, y); }};
+    piece.events = {[this](double t, const Eigen::VectorXd& y) { return normalForce(t, y); },
+                    [this](double t, const Eigen::VectorXd& y) {
+                      const Eigen::Isometry3d X_WF = hand_at_(t).X_WH * fingers_.X_HF;
+                      return task_.fingertip -
+                             (X_WF.inverse() * Vector3d(y.segment<3>(kPlace))).x();
+                    }};
     if (canSlide()) {
       piece.events.push_back([this](double t, const Eigen::VectorXd& y) {
         const std::vector<Touch> at = touches(hand_at_(t), y);

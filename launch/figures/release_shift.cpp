@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "launch/figures/printed_rolling.h"
+#include "launch/figures/rolling_range.h"
 #include "model/ball_flight.h"
 #include "model/release.h"
 #include "planner/hand_motion.h"
@@ -24,6 +26,7 @@ model::RollingTask taskFrom(double t, const PlannedRelease& release) {
   task.t_start = t;
   task.t_end = t + kLongest;
   task.gravity = release.experiment.arm.gravity;
+  task.fingertip = release.fingertip;
   return task;
 }
 
@@ -42,7 +45,7 @@ std::optional<model::BallState> leaving(const PlannedRelease& release, LetGo how
     case LetGo::kFreely:
       return on(Vector3d::Zero(), Vector3d::Zero());
     case LetGo::kRolling:
-      return off(rollOnFingers(ball, release.fingers, release.hand_at, taskFrom(error, release)));
+      return off(rigidRoll(release, error, false));
     case LetGo::kPrinted:
       return off(rollAsPrinted(ball, release.fingers, release.hand_at, taskFrom(error, release)));
     case LetGo::kElastic: {
@@ -79,6 +82,7 @@ PlannedRelease plannedRelease(const config::Experiment& experiment,
   release.command.grip_force = config.grip_force;
   release.command.settings = config.release;
   release.fingers = model::fingersBehind(experiment.hand, experiment.ball.radius);
+  release.fingertip = fingertipPastBall(experiment.hand, experiment.ball.radius);
   const auto at_plan_time = [arm = model::Arm(experiment.arm, experiment.hand.payload),
                              hand = model::Hand(experiment.hand),
                              wrist = planner::WristAngles{plan.wrist_roll, plan.wrist_flexion},
@@ -116,6 +120,13 @@ Eigen::Vector2d landing(const PlannedRelease& release, LetGo how, double error) 
         1e3 * error));
   }
   return landing->landing;
+}
+
+model::RollingMotion rigidRoll(const PlannedRelease& release, double error, bool endless) {
+  model::RollingTask task = taskFrom(error, release);
+  if (endless)
+    task.fingertip = std::numeric_limits<double>::infinity();
+  return rollOnFingers(release.experiment.ball, release.fingers, release.hand_at, task);
 }
 
 Eigen::Vector2d landingShift(const PlannedRelease& release,

@@ -18,6 +18,7 @@ struct PlannedRelease {
   model::HandPath hand_at;  ///< good from 0.1 s before to 0.1 s after
   double t_plan = 0;        ///< [s], of the plan
   model::FingerPair fingers;
+  double fingertip = 0;  ///< [m], x' at which the ball comes to the fingers' ends
 };
 /// @throw std::runtime_error if the hand pushes all the time about the planned release, or never does.
 PlannedRelease plannedRelease(const config::Experiment& experiment,
@@ -39,6 +40,9 @@ enum class LetGo {
 /// Where the ball lands, in the target's plane [m]: to the right and up.
 /// @throw std::runtime_error if it does not leave or does not come to the plane.
 Eigen::Vector2d landing(const PlannedRelease& release, LetGo how, double error);
+
+/// The rigid ball, the thumb gone at the error [s]; on fingers without ends if so wanted.
+model::RollingMotion rigidRoll(const PlannedRelease& release, double error, bool endless);
 
 /// Landing against error: slope [m/s] by least squares over `errors` [s].
 Eigen::Vector2d landingShift(const PlannedRelease& release,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "launch/figures/figure.h"
@@ -90,38 +91,46 @@ Table drives(const PlannedRelease& release) {
   return table;
 }
 
-std::string landingPanel(int coordinate, bool with_titles) {
-  static const char* const looks[] = {"lw 5 lc rgb '#b0b0b0'",   "lw 2.5 dt 2 lc rgb '#000000'",
-                                      "lw 2.5 lc rgb '#0072B2'", "lw 1.5 dt 4 lc rgb '#56B4E9'",
-                                      "lw 2.5 lc rgb '#009E73'", "lw 2.5 lc rgb '#D55E00'"};
+constexpr const char* kLooks[] = {"lw 5 lc rgb '#b0b0b0'",   "lw 2.5 dt 2 lc rgb '#000000'",
+                                  "lw 2.5 lc rgb '#0072B2'", "lw 1.5 dt 4 lc rgb '#56B4E9'",
+                                  "lw 2.5 lc rgb '#009E73'", "lw 2.5 lc rgb '#D55E00'"};
+
+std::string landingPanel(int coordinate) {
   std::string plot = "plot 0 w l lw 1 lc rgb '#404040'";
-  for (std::size_t i = 0; i < kWays.size(); ++i) {
-    plot += fmt::format(", $l u 1:{} w l {}{}", 2 + 2 * i + coordinate, looks[i],
-                        with_titles ? fmt::format(" title {}", quoted(kWays[i].name)) : "");
-  }
+  for (std::size_t i = 0; i < kWays.size(); ++i)
+    plot += fmt::format(", $l u 1:{} w l {}", 2 + 2 * i + coordinate, kLooks[i]);
+  return plot + "\n";
+}
+
+/// A panel without anything but the names of the ways.
+std::string legend() {
+  std::string plot =
+      "unset border; unset tics; unset grid; unset xlabel; unset ylabel; unset title\n"
+      "set key center left spacing 1.8\nset yrange [0:1]\nplot";
+  for (std::size_t i = 0; i < kWays.size(); ++i)
+    plot += fmt::format("{} NaN w l {} title {}", i ? "," : "", kLooks[i], quoted(kWays[i].name));
   return plot + "\n";
 }
 
 std::string commandsOf(const std::string& profile) {
   return kStyle +
-         fmt::format(R"gp(set multiplot layout 1,3 margins 0.05,0.985,0.12,0.84 spacing 0.06,0.1 \
+         fmt::format(R"gp(set multiplot layout 2,2 margins 0.065,0.975,0.08,0.9 spacing 0.09,0.16 \
   title 'What an error in letting go does to the landing, planned throw, arm {}' font ',15'
 set xlabel 'let go after the planned moment by (ms)'
 set ylabel 'landing to the right (mm)'
-set xrange [{}:{}]; set yrange [*:*]
-set title 'across' font ',12'; set key top right font ',9.5'
+set xrange [{}:{}]
+set title 'across' font ',12'
 {}set title 'upwards' font ',12'; set ylabel 'landing above (mm)'
 {}set title "the hand in the fingers' frame" font ',12'
 set xlabel 'time from Eq. (24) (ms)'; set ylabel 'acceleration (m/s²)'
-set xrange [{}:{}]; set yrange [*:*]; set key center right
+set xrange [{}:{}]; set key center right
 plot 0 w l lw 1 lc rgb '#404040', \
   $d u 1:2 w l lw 2.5 lc rgb {} title "push α'_{{0y}} - g'_y", \
   $d u 1:3 w l lw 2.5 lc rgb {} title "drive -α'_{{0x}} + g'_x"
-unset multiplot
+{}unset multiplot
 )gp",
-                     profile, kMilli * kFirst, kMilli * kLast, landingPanel(0, true),
-                     landingPanel(1, false), 2 * kMilli * kFirst, 2 * kMilli * kLast, kColours[0],
-                     kColours[1]);
+                     profile, kMilli * kFirst, kMilli * kLast, landingPanel(0), landingPanel(1),
+                     2 * kMilli * kFirst, 2 * kMilli * kLast, kColours[0], kColours[1], legend());
 }
 
 std::string shiftWords(const Eigen::Vector2d& shift, const Eigen::Vector2d& free) {
@@ -132,6 +141,22 @@ std::string shiftWords(const Eigen::Vector2d& shift, const Eigen::Vector2d& free
 bool lateIsFree(const PlannedRelease& release) {
   return (landing(release, LetGo::kRolling, kLate) - landing(release, LetGo::kFreely, kLate))
              .norm() < 1e-6;
+}
+
+/// Where the early thumb's ball comes off.
+std::string fingertipWords(const PlannedRelease& release) {
+  int at_tip = 0, all = 0;
+  double longest = 0;
+  for (double error = kFirst; error < kEarly + kStep / 2; error += kStep, ++all) {
+    at_tip += rigidRoll(release, error, false).rolled_off;
+    longest = std::max(longest, rigidRoll(release, error, true).samples.back().p_FBall.x());
+  }
+  return fmt::format(
+      "In {} of these {} throws of the rigid ball it comes off at the fingertips, {:.0f} mm along, "
+      "which section 3.1 excludes; on longer fingers it would roll up to {:.0f} mm, because "
+      "rolling "
+      "itself, 2 omega_z' dx' in Eq. (22), presses the ball on. ",
+      at_tip, all, kMilli * release.fingertip, kMilli * longest);
 }
 
 std::string captionOf(const PlannedRelease& release, const std::vector<Eigen::Vector2d>& s) {
@@ -149,6 +174,7 @@ std::string captionOf(const PlannedRelease& release, const std::vector<Eigen::Ve
              "gives no squeeze along: {} for the rigid ball with slip ({} by the equations as "
              "printed), {} for the elastic one. ",
              shiftWords(s[2], s[0]), shiftWords(s[3], s[0]), shiftWords(s[4], s[0])) +
+         fingertipWords(release) +
          (lateIsFree(release)
               ? fmt::format("A thumb that is late by {:.0f} ms finds a hand that no longer pushes, "
                             "Eq. (24): nothing rolls, and the ball is simply let go. ",
@@ -173,7 +199,7 @@ std::string drawReleaseShift(const FigureTask& task) {
   writeCsv(landing_table, stem + "-landings.csv");
   writeCsv(shiftsTable(shifts), stem + "-shifts.csv");
   writeCsv(drive_table, stem + "-hand.csv");
-  drawPicture(stem, 1500, 620,
+  drawPicture(stem, 1400, 950,
               dataBlock("l", plotData(landing_table)) + dataBlock("d", plotData(drive_table)),
               commandsOf(task.experiment.arm.profile));
   return captionOf(release, shifts);

@@ -1,6 +1,9 @@
 #include "launch/figures/rolling_range.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
+
+#include "model/hand.h"
 
 namespace fastball::launch {
 
@@ -39,6 +42,13 @@ RollOutcome outcomeOf(const model::RollingMotion& motion) {
   if (motion.samples.size() < 2)
     return {RollKind::kNone, x, t};
   return {x < 0 ? RollKind::kBackwards : RollKind::kForwards, x, t};
+}
+
+double fingertipPastBall(const model::HandParameters& parameters, double ball_radius) {
+  const model::Hand hand(parameters);
+  const double touch = ball_radius + parameters.finger_radius;
+  const model::HandVector q = hand.posture(0, 0, {touch, touch, touch});
+  return hand.phalanges(model::kFingerA, q)[1].p_end.z() - parameters.p_HBall.z();
 }
 
 }  // namespace fastball::launch

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/ball_parameters.h"
+#include "model/hand_parameters.h"
 #include "model/rolling_ball.h"
 
 namespace fastball::launch {
@@ -28,5 +28,8 @@ struct RollOutcome {
   double time = 0;      ///< [s], of the release
 };
 RollOutcome outcomeOf(const model::RollingMotion& motion);
+
+/// x' [m] at which the ball has rolled from its nominal place to the fingertips.
+double fingertipPastBall(const model::HandParameters& hand, double ball_radius);
 
 }  // namespace fastball::launch

@@ -239,13 +239,6 @@ std::string captionOf(const Content& c) {
              100 * c.slip_share, kMilli * c.largest_difference, kMilli * c.fingertip);
 }
 
-double fingertipPastBall(const config::Experiment& e) {
-  const model::Hand hand(e.hand);
-  const double touch = e.ball.radius + e.hand.finger_radius;
-  const model::HandVector q = hand.posture(0, 0, {touch, touch, touch});
-  return hand.phalanges(model::kFingerA, q)[1].p_end.z() - e.hand.p_HBall.z();
-}
-
 }  // namespace
 
 std::string drawRollingRange(const FigureTask& task) {
@@ -253,7 +246,7 @@ std::string drawRollingRange(const FigureTask& task) {
   Roller roller{e.ball, model::fingersBehind(e.hand, e.ball.radius), e.arm.gravity};
   roller.fingers.X_HF.setIdentity();
   Content content;
-  content.fingertip = fingertipPastBall(e);
+  content.fingertip = fingertipPastBall(e.hand, e.ball.radius);
   content.palm = e.hand.palm_distance + e.ball.radius - e.hand.p_HBall.z();
   content.courses = coursesTable(roller, &content);
   content.map = mapTable(roller, &content);

@@ -148,6 +148,14 @@ TEST_P(Elastic, IsUnmovedByAHandThatDoesNotPush) {
   EXPECT_EQ(motion.ball.v_WBall.norm(), 0);
 }
 
+TEST_P(Elastic, ComesOffAtTheFingertips) {
+  task_.fingertip = 0.005;
+  const ElasticMotion off = settledThen(exampleSwing());
+  EXPECT_TRUE(off.released && off.rolled_off);
+  EXPECT_NEAR(off.elastic.back().p_FBall.x(), 0.005, 1e-12);
+  EXPECT_EQ(off.elastic.back().t, off.t_release);
+}
+
 TEST_P(Elastic, RefusesALoadThatSinksThroughAndNumbersThatMakeNoSense) {
   ball_.youngs_modulus = 1e3;
   EXPECT_THROW(settledThen(pushed(200)), std::invalid_argument);

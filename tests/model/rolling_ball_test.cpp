@@ -138,6 +138,19 @@ TEST_P(Rolling, LeavesAtOnceWhereTheHandDoesNotPush) {
   }
 }
 
+TEST_P(Rolling, ComesOffAtTheFingertips) {
+  task_.fingertip = 0.005;
+  for (const auto& roll : {rollOnFingers, rollOnFingers3d}) {
+    const RollingMotion off = roll(ball_, fingers_, exampleSwing(), task_);
+    EXPECT_TRUE(off.released && off.rolled_off);
+    EXPECT_NEAR(off.samples.back().p_FBall.x(), 0.005, 1e-12);
+    EXPECT_GT(off.samples.back().force_F.y(), 0.1);
+    task_.fingertip = 1;
+    EXPECT_FALSE(roll(ball_, fingers_, exampleSwing(), task_).rolled_off);
+    task_.fingertip = 0.005;
+  }
+}
+
 TEST_P(Rolling, RefusesWhatMakesNoSense) {
   const auto refused = [&](auto change) {
     BallParameters ball = ball_;
