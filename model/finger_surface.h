@@ -5,7 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "model/release.h"
+#include "model/hand.h"
+#include "model/hand_motion.h"
 
 namespace fastball::model {
 

@@ -9,7 +9,6 @@
 #include "launch/figures/printed_rolling.h"
 #include "launch/figures/rolling_range.h"
 #include "model/ball_flight.h"
-#include "model/release.h"
 #include "planner/hand_motion.h"
 
 namespace fastball::launch {

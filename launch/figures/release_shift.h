@@ -5,6 +5,7 @@
 
 #include "config/experiment.h"
 #include "model/elastic_ball.h"
+#include "model/release.h"
 #include "model/target.h"
 #include "planner/config.h"
 #include "planner/plan.h"
