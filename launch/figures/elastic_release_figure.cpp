@@ -165,7 +165,7 @@ set xlabel "Young's modulus E (Pa)"; set ylabel 'delay (ms)'; set xrange [{}:{}]
 set ylabel 'departure (ms)'
 {}unset multiplot
 )gp",
-                     situation.rate, situation.ball.mass * situation.swing.acceleration, last_time,
+                     situation.rate, rigidRelease(situation).samples.front().force_F.y(), last_time,
                      courseCurves(2, "plot $c u 1:10 w l lw 4 lc rgb '#b0b0b0' title 'rigid'"),
                      courseCurves(3, "plot 0 w l lw 1 lc rgb '#404040'"), kFirst, kLast,
                      delayCurves(damping), departureCurves());
