@@ -9,7 +9,7 @@ namespace fastball::hand_server {
 
 using model::FingerForces;
 
-/// Feels by the finger forces when the ball leaves the hand. A force is the mean over the tick before its state.
+/// Feels by the finger forces when the ball leaves the hand, and whether it touches it again. A force is the mean over the tick before its state.
 class BallWatch {
  public:
   BallWatch() = default;
@@ -36,12 +36,25 @@ class BallWatch {
     return last_;
   }
   bool departed() const { return departed_; }
+  /// Once, when a finger feels the ball after it has departed: which. Call after step().
+  std::optional<model::Finger> touchedAgain(const FingerForces& force) {
+    if (!departed_ || touched_again_)
+      return {};
+    for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
+      if (force[finger] >= touch_force_) {
+        touched_again_ = true;
+        return finger;
+      }
+    }
+    return {};
+  }
+  const Departure& lastTouch() const { return last_; }
 
  private:
   double touch_force_ = 0;
   int64_t quiet_us_ = 0;
   bool touched_ = false;
-  bool departed_ = false;
+  bool departed_ = false, touched_again_ = false;
   Departure last_;
 };
 

@@ -141,6 +141,7 @@ void HandController::beginScene(const HandSample& sample) {
   kept_ = false;
   phase_ = Phase::kOpen;
   path_ = model::JointPath(sample.q, q_open_, sample.utime, config_.release.clear_time);
+  slip_watch_ = {};
   ball_watch_ = BallWatch(config_.release.touch_force, config_.quiet_time);
   if (order_ && order_->scene_id == sample.scene_id) {
     beginThrow(sample);
@@ -232,6 +233,24 @@ void HandController::checkGrip(const HandSample& sample) {
   }
 }
 
+/// Says once, during the swing, if the ball slips between the fingers.
+void HandController::watchSlip(const HandSample& sample) {
+  const double t = planTime(sample.utime);
+  if (t < run_->plan.t_swing) {
+    return;
+  }
+  const double needed =
+      ball_.mass *
+      carryingAcceleration(arm_, run_->plan.arm.at(t), X_TH_, hand_.parameters().p_HBall).z();
+  if (const auto slip = slip_watch_.step(needed, sample.tangential)) {
+    notice_ = fmt::format(
+        "the ball slips {:.3g} s into the swing: the fingers carry it with {:.3g} N of the {:.3g} "
+        "N "
+        "that its mass takes",
+        t - run_->plan.t_swing, slip->carried, slip->needed);
+  }
+}
+
 void HandController::watchBall(const HandSample& sample) {
   if (phase_ < Phase::kHold) {
     return;
@@ -243,6 +262,11 @@ void HandController::watchBall(const HandSample& sample) {
                  config_.release_by,
                  run_order_.start_utime + microseconds(run_->plan.t_release),
                  departure->force};
+  }
+  if (const auto finger = ball_watch_.touchedAgain(sample.force)) {
+    constexpr std::array<const char*, model::kFingers> kNames{"finger A", "the thumb", "finger B"};
+    notice_ = fmt::format("{} touched the ball again {:.3g} ms after it had left", kNames[*finger],
+                          1e-3 * static_cast<double>(sample.utime - ball_watch_.lastTouch().utime));
   }
 }
 
@@ -256,6 +280,7 @@ void HandController::advancePhase(const HandSample& sample) {
   }
   if (!kept_ && phase_ <= Phase::kHold) {
     checkGrip(sample);
+    watchSlip(sample);
     if (mustRelease(sample.utime)) {
       beginRelease(sample, config_.release_by);
     }

@@ -10,6 +10,7 @@
 #include "hand_server/grip_settling.h"
 #include "hand_server/hand_plan.h"
 #include "hand_server/release_condition.h"
+#include "hand_server/slip_watch.h"
 #include "model/arm.h"
 #include "model/hand.h"
 #include "model/joint_path.h"
@@ -28,6 +29,8 @@ struct HandSample {
   model::HandVector q = model::HandVector::Zero();   ///< [rad]
   model::HandVector qd = model::HandVector::Zero();  ///< [rad/s]
   FingerForces force{};                              ///< [N], normal, mean over the tick before
+  TangentialForces tangential{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                              Eigen::Vector2d::Zero()};  ///< [N], mean over the tick before
 };
 
 /// What the hand's servo shall do until the next state.
@@ -83,7 +86,8 @@ class HandController {
 
   Phase phase() const { return phase_; }
   int64_t scene() const { return scene_ ? *scene_ : 0; }
-  /// Why a plan or an order was refused, the ball is kept, or what is wrong with the grip; empty if nothing.
+  /// Why a plan or an order was refused, the ball is kept, what is wrong with the grip, or that the ball was touched again; empty
+  /// if nothing.
   const std::string& notice() const { return notice_; }
   /// The last plan taken or refused, 0: none.
   int64_t planId() const { return plan_id_; }
@@ -107,6 +111,7 @@ class HandController {
   void beginRelease(const HandSample& sample, ReleaseBy reason);
   void settleGrip(const HandSample& sample);
   void checkGrip(const HandSample& sample);
+  void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
   double pressure(model::Finger finger, const model::HandVector& q) const;
@@ -138,6 +143,7 @@ class HandController {
   model::ReleaseMotion release_;
   PushEnd push_end_;
   BallWatch ball_watch_;
+  SlipWatch slip_watch_;
   HandSample last_;
   HandAnswer answer_;  ///< to last_
   std::optional<ReleaseEvent> commanded_, departed_;

@@ -105,6 +105,8 @@ class HandServerNode : public messaging::Node {
                       Eigen::Map<const model::HandVector>(newest_.q),
                       Eigen::Map<const model::HandVector>(newest_.qd)};
     std::copy_n(newest_.f_normal, model::kFingers, sample.force.begin());
+    for (int i = 0; i < model::kFingers; ++i)
+      sample.tangential[i] = {newest_.f_tangential[i][0], newest_.f_tangential[i][1]};
     const std::optional<HandAnswer> answer = controller_.answer(sample);
     if (!answer)
       return;

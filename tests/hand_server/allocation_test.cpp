@@ -33,12 +33,20 @@ void throwWithout(double window) {
   const HandPlan plan = throwPlan(1, window);
   ASSERT_TRUE(controller.offerPlan(plan));
   ASSERT_TRUE(controller.startThrow({1, 1, 300'000}));
+  const model::Arm arm = testArm();
+  const model::BallParameters& ball = experiment().ball;
+  const Eigen::Isometry3d X_TH = testHand().X_TH(plan.q_wrist[0], plan.q_wrist[1]);
   const long before = g_allocations;
   ASSERT_GT(before, 0) << "the counter counts";
   Phase last = Phase::kOpen;
   for (int i = 0; i < 1000; ++i) {
     const double force = i < 810 ? 2.0 : 0.0;
-    const auto answer = controller.answer({1000 * i, 1, i, hand.q, hand.qd, {force, force, force}});
+    HandSample sample{1000 * i, 1, i, hand.q, hand.qd, {force, force, force}};
+    sample.tangential[0][0] =
+        ball.mass * carryingAcceleration(arm, plan.arm.at((i - 300) * 1e-3), X_TH,
+                                         testHand().parameters().p_HBall)
+                        .z();
+    const auto answer = controller.answer(sample);
     controller.watchArm(1, 1000 * i, plan.arm.at((i - 300) * 1e-3).q);
     last = answer->phase;
     hand.tick(*answer);

@@ -23,7 +23,17 @@ class HandThrow : public testing::Test {
     ASSERT_TRUE(controller_.offerPlan(throwPlan(1, window)));
     ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
   }
-  HandSample sample() const { return {utime_, scene_, tick_, hand_.q, hand_.qd, force_}; }
+  HandSample sample() const {
+    HandSample sample{utime_, scene_, tick_, hand_.q, hand_.qd, force_};
+    // The fingers carry this share of what the ball's mass takes along them.
+    const double t = 1e-6 * static_cast<double>(utime_ - kStartUs);
+    const HandPlan plan = throwPlan();
+    const Eigen::Isometry3d X_TH = testHand().X_TH(plan.q_wrist[0], plan.q_wrist[1]);
+    sample.tangential[0][0] =
+        carried_ * experiment().ball.mass *
+        carryingAcceleration(testArm(), plan.arm.at(t), X_TH, experiment().hand.p_HBall).z();
+    return sample;
+  }
   HandAnswer tick() {
     const HandAnswer answer = controller_.answer(sample()).value();
     while (const auto event = controller_.takeEvent())
@@ -43,6 +53,7 @@ class HandThrow : public testing::Test {
   HandServerConfig config_ = loadConfig(kExperimentPath);
   HandController controller_{testArm(), testHand(), experiment().ball, config_};
   ScriptedHand hand_;
+  double carried_ = 1;
   FingerForces force_{4 / std::sqrt(3.0), 4.0, 4 / std::sqrt(3.0)};
   std::vector<ReleaseEvent> events_;
   int64_t scene_ = 1, tick_ = 0, utime_ = kSceneUs;
@@ -146,6 +157,24 @@ TEST_F(HandThrow, InAReleaseWindowAllFingersRetreatAndOpen) {
   EXPECT_EQ(answer.tau[model::kProximalThumb], -experiment().hand.finger_torque_max);
   answer = run(150);
   EXPECT_NEAR(answer.q[model::kProximalThumb], config_.release.thumb.open_angle, 1e-9);
+}
+
+TEST_F(HandThrow, ABallThatIsTouchedAgainIsSaid) {
+  arm();
+  run(1105);
+  force_ = {0, 0, 0};
+  run(20);
+  force_ = {0, 0, 0.4};
+  run(1);
+  EXPECT_EQ(controller_.notice(), "finger B touched the ball again 21 ms after it had left");
+}
+
+TEST_F(HandThrow, ABallThatTheFingersDoNotCarryIsSaidBeforeTheRelease) {
+  arm();
+  carried_ = -1;
+  run(1090);
+  EXPECT_THAT(controller_.notice(), AllOf(HasSubstr("the ball slips"), HasSubstr("N of the")));
+  EXPECT_EQ(controller_.phase(), Phase::kHold);
 }
 
 TEST_F(HandThrow, ABounceShorterThanTheQuietTimeIsNoDeparture) {
