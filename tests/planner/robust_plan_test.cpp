@@ -71,6 +71,31 @@ TEST_P(RobustPlan, ResidualAccelerationIsWhatThePlanSays) {
   }
 }
 
+TEST(ReleasePrediction, AThrowAfterWhichTheHandTouchesTheBallAgainIsNone) {
+  const DefaultThrow example;
+  ThrowRequest request = example.request();
+  request.strategy = "robust";
+  const Plan plan = std::get<Plan>(Planner(example.config).plan(request));
+  const model::Arm arm(example.config.arm, example.config.hand.payload);
+  const WholeMotion motion{plan.trajectory,  plan.t_ready,           plan.t_swing,
+                           plan.t_swing_end, plan.release_window[0], 0.04};
+  for (const double touched_again : {-1.0, 0.06}) {
+    const ReleasePredictor predictor(
+        example.config, arm,
+        [&](const std::function<model::HandMotion(double)>& hand_at,
+            const model::HandSupport& support, model::ReleaseMode mode) {
+          model::Departure left = instantDeparture(example.config)(hand_at, support, mode);
+          left.touched_again = touched_again;
+          return left;
+        });
+    EXPECT_EQ(predictor
+                  .predict(motion, {plan.wrist_roll, plan.wrist_flexion}, request.target,
+                           plan.t_release_command)
+                  .has_value(),
+              touched_again < 0);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(With,
                          RobustPlan,
                          testing::Values("wam4-48v.yaml", "wam4-90v.yaml"),

@@ -22,41 +22,53 @@ struct Thrown {
   Eigen::Vector3d p_HBall_swing = Eigen::Vector3d::Zero();  ///< [m], when the swing begins
 };
 
-class HandThrow : public testing::Test {
- protected:
-  static const planner::Plan& plan() {
-    static const planner::Plan planned = [] {
-      const planner::Planner planner(planner::loadConfig(kExperimentFile));
-      return std::get<planner::Plan>(
-          planner.plan({"robust", experiment().q_rest, experiment().target, 1}));
-    }();
-    return planned;
+/// An experiment and its throw.
+struct Throw {
+  explicit Throw(const std::array<double, model::kFingers>& azimuth) {
+    set_up.hand.azimuth = azimuth;
+    planner::PlannerConfig config = planner::loadConfig(kExperimentFile);
+    config.hand.azimuth = azimuth;
+    plan = std::get<planner::Plan>(
+        planner::Planner(config).plan({"robust", set_up.q_rest, set_up.target, 1}));
   }
-  static hand_server::HandPlan handPlan() {
+  hand_server::HandPlan handPlan() const {
     hand_server::HandPlan hand;
     hand.id = 1;
-    hand.t_swing = plan().t_swing;
-    hand.t_release_command = plan().t_release_command;
-    hand.t_release = plan().t_release;
-    hand.window = plan().release_window[1] - plan().release_window[0];
-    hand.grip_force = plan().grip_force;
-    hand.q_wrist = {plan().wrist_roll, plan().wrist_flexion};
-    hand.arm = plan().trajectory;
+    hand.t_swing = plan.t_swing;
+    hand.t_release_command = plan.t_release_command;
+    hand.t_release = plan.t_release;
+    hand.window = plan.release_window[1] - plan.release_window[0];
+    hand.grip_force = plan.grip_force;
+    hand.q_wrist = {plan.wrist_roll, plan.wrist_flexion};
+    hand.arm = plan.trajectory;
     return hand;
   }
-  static Thrown run(const Uncertainty& uncertainty, int64_t seed) {
-    const model::Arm arm(experiment().arm, experiment().hand.payload);
-    const model::Hand fingers(experiment().hand);
-    const Eigen::Isometry3d X_TH = fingers.X_TH(plan().wrist_roll, plan().wrist_flexion);
-    hand_server::HandController hand(arm, fingers, experiment().ball,
+  config::Experiment set_up = experiment();
+  planner::Plan plan;
+};
+
+class HandThrow : public testing::Test {
+ protected:
+  static const Throw& asConfigured() {
+    static const Throw made(experiment().hand.azimuth);
+    return made;
+  }
+  static Thrown run(const Uncertainty& uncertainty,
+                    int64_t seed,
+                    const Throw& made = asConfigured()) {
+    const planner::Plan& plan = made.plan;
+    const model::Arm arm(made.set_up.arm, made.set_up.hand.payload);
+    const model::Hand fingers(made.set_up.hand);
+    const Eigen::Isometry3d X_TH = fingers.X_TH(plan.wrist_roll, plan.wrist_flexion);
+    hand_server::HandController hand(arm, fingers, made.set_up.ball,
                                      hand_server::loadConfig(kExperimentFile));
-    EXPECT_TRUE(hand.offerPlan(handPlan()));
+    EXPECT_TRUE(hand.offerPlan(made.handPlan()));
     EXPECT_TRUE(hand.startThrow({1, 1, std::llround(1e6 * kSettle)}));
     SceneStart start = restStart();
     start.seed = seed;
-    Scene scene(experiment(), simulation(), uncertainty, start);
+    Scene scene(made.set_up, simulation(), uncertainty, start);
     Thrown thrown;
-    const auto ticks = std::lround(1e3 * (kSettle + plan().t_release + plan().flight_time + 0.05));
+    const auto ticks = std::lround(1e3 * (kSettle + plan.t_release + plan.flight_time + 0.05));
     for (long k = 0; k < ticks; ++k) {
       const double t = 1e-3 * static_cast<double>(k) - kSettle;
       const RobotState& robot = scene.state();
@@ -66,16 +78,16 @@ class HandThrow : public testing::Test {
         sample.tangential[i] = robot.forces[i].tangential;
       }
       const auto told = hand.answer(sample).value();
-      const model::ArmMotion motion = plan().trajectory.at(t);
+      const model::ArmMotion motion = plan.trajectory.at(t);
       const Eigen::Vector4d kp(8000, 8000, 2000, 5000), kd(250, 250, 22, 70);
       const Eigen::Vector4d tau =
           arm.inverseDynamics(motion.q, motion.qd, motion.qdd) + arm.frictionTorque(motion.qd) +
           kp.cwiseProduct(motion.q - robot.q_arm) + kd.cwiseProduct(motion.qd - robot.qd_arm);
       const Eigen::Vector3d p_HBall =
           (arm.X_WT(robot.q.arm) * X_TH).inverse() * scene.ball().p_WBall;
-      if (t < plan().t_swing)
+      if (t < plan.t_swing)
         thrown.p_HBall_swing = p_HBall;
-      if (t >= plan().t_swing && t < plan().t_release_command) {
+      if (t >= plan.t_swing && t < plan.t_release_command) {
         thrown.most_slip =
             std::max(thrown.most_slip, std::abs(p_HBall.z() - thrown.p_HBall_swing.z()));
         thrown.notice = hand.notice();
@@ -98,6 +110,14 @@ TEST_F(HandThrow, LandsWhereThePlannerSaysAndIsNotTouchedAgain) {
   EXPECT_FALSE(thrown.touched_again);
   EXPECT_LT(thrown.miss, 0.01);
   EXPECT_EQ(thrown.notice, "");
+}
+
+TEST_F(HandThrow, LandsThereFromThreeFingersSpacedEvenly) {
+  const Throw even({-5 * M_PI / 6, M_PI / 2, -M_PI / 6});
+  const Thrown thrown = run({}, 1, even);
+  EXPECT_TRUE(thrown.released);
+  EXPECT_FALSE(thrown.touched_again);
+  EXPECT_LT(thrown.miss, 0.01);
 }
 
 TEST_F(HandThrow, DoesNotSlipAtAFrictionOfAHalf) {
