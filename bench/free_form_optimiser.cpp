@@ -103,8 +103,7 @@ struct FreeFormOptimiser::Round {
     const ReleaseRows release = problem.release(x);
     *c = release.grazing;
     if (gradient != nullptr) {
-      Eigen::Map<Rows>(gradient, 1, x.size()) =
-          problem.releaseGradient(x, release.grazing_slope);
+      Eigen::Map<Rows>(gradient, 1, x.size()) = problem.releaseGradient(x, release.grazing_slope);
     }
   }
 

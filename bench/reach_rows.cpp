@@ -79,8 +79,8 @@ Row timeRow(const std::string& id, const Planned& planned, double share, const s
           "ms",
           "slowest",
           planned.ms.back(),
-          fmt::format("{}, {} random targets solved of {}, CPU time of one core", note, planned.ms.size(),
-                      planned.ms.size() + planned.refused.size())};
+          fmt::format("{}, {} random targets solved of {}, CPU time of one core", note,
+                      planned.ms.size(), planned.ms.size() + planned.refused.size())};
 }
 
 Row coverage(const Setup& setup, const Planned& planned) {

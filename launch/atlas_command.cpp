@@ -19,8 +19,7 @@ struct AtlasOptions {
 };
 
 int makeAtlas(const AtlasOptions& options) {
-  const planner::PlannerConfig config =
-      planner::loadConfig(config::experimentPath(options.config));
+  const planner::PlannerConfig config = planner::loadConfig(config::experimentPath(options.config));
   const std::filesystem::path folder =
       options.cache.empty() ? planner::atlasFolder() : std::filesystem::path(options.cache);
   Progress progress;
@@ -39,10 +38,10 @@ void addAtlasCommand(CLI::App& app, int& exit_status) {
   command->add_option("--config", options->config,
                       "Experiment file (default: config/experiment.yaml)");
   command->add_flag("--rebuild", options->rebuild, "Even if there is one for the configuration");
-  command->add_option(
-      "--cache", options->cache,
-      "Folder to keep it in (default: fastball in $XDG_CACHE_HOME or in ~/.cache, where the planner "
-      "looks for it)");
+  command->add_option("--cache", options->cache,
+                      "Folder to keep it in (default: fastball in $XDG_CACHE_HOME or in ~/.cache, "
+                      "where the planner "
+                      "looks for it)");
   command->callback([options, &exit_status] { exit_status = makeAtlas(*options); });
 }
 

@@ -28,8 +28,8 @@ double secondsSince(Clock::time_point start) {
 
 std::string bar(double share, double seconds) {
   const int full = static_cast<int>(std::lround(kBarLength * share));
-  std::string text = fmt::format("atlas [{:#<{}}{:<{}}] {:3.0f} %", "", full, "", kBarLength - full,
-                                 100 * share);
+  std::string text =
+      fmt::format("atlas [{:#<{}}{:<{}}] {:3.0f} %", "", full, "", kBarLength - full, 100 * share);
   if (share > kFirstGuess)
     text += fmt::format(", {:.0f} s left", std::ceil(seconds * (1 - share) / share));
   return text;

@@ -206,9 +206,8 @@ class Windows : public PlannedThrows {
         planner_.motionOf(problemFor(place, found.aim, 1), {}, fromVector(found.x, window_.length));
     if (!motion)
       return {};
-    const auto prediction =
-        predict(*motion, planner_.wristOf(*motion), target, predictor_.windowCommandTime(*motion),
-                departure);
+    const auto prediction = predict(*motion, planner_.wristOf(*motion), target,
+                                    predictor_.windowCommandTime(*motion), departure);
     if (!prediction)
       return {};
     AtlasThrow entry = found;

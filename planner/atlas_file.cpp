@@ -85,12 +85,14 @@ json toJson(const SwingSettings& swing) {
 }
 
 json toJson(const model::ReleaseSettings& release) {
-  return {{"modes", {static_cast<int>(release.in_window), static_cast<int>(release.without_window)}},
-          {"kp", toJson(release.kp)},
-          {"kd", toJson(release.kd)},
-          {"thumb", {release.thumb.open_angle, release.thumb.speed, release.thumb.deceleration}},
-          {"relax", {release.relax_time, release.retreat_ratio, release.open_delay, release.touch_force}},
-          {"open", {release.open_distance, release.clear_time}}};
+  return {
+      {"modes", {static_cast<int>(release.in_window), static_cast<int>(release.without_window)}},
+      {"kp", toJson(release.kp)},
+      {"kd", toJson(release.kd)},
+      {"thumb", {release.thumb.open_angle, release.thumb.speed, release.thumb.deceleration}},
+      {"relax",
+       {release.relax_time, release.retreat_ratio, release.open_delay, release.touch_force}},
+      {"open", {release.open_distance, release.clear_time}}};
 }
 
 /// FNV-1a.
@@ -175,27 +177,27 @@ fs::path atlasFolder() {
 
 json atlasKey(const PlannerConfig& config) {
   const ThrowErrors& errors = config.robust.errors;
-  return {{"format", kFormat},
-          {"arm", toJson(config.arm)},
-          {"hand", toJson(config.hand)},
-          {"ball", toJson(config.ball)},
-          {"swing", toJson(config.swing)},
-          {"grip_force", config.grip_force},
-          {"release", toJson(config.release)},
-          {"support", {toJson(config.support_kp), toJson(config.support_kd)}},
-          {"motion",
-           {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
-            config.motion.approach_speed}},
-          {"limit_share", config.limit_share},
-          {"max_evaluations", config.max_evaluations},
-          {"landing_tolerance", config.landing_tolerance},
-          {"robust",
-           {{"window_lengths", config.robust.window_lengths},
-            {"limit_share", config.robust.limit_share},
-            {"wanted_speed", config.robust.wanted_speed},
-            {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
-          {"grid",
-           {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
+  return {
+      {"format", kFormat},
+      {"arm", toJson(config.arm)},
+      {"hand", toJson(config.hand)},
+      {"ball", toJson(config.ball)},
+      {"swing", toJson(config.swing)},
+      {"grip_force", config.grip_force},
+      {"release", toJson(config.release)},
+      {"support", {toJson(config.support_kp), toJson(config.support_kd)}},
+      {"motion",
+       {config.motion.sample_time, config.motion.max_samples, config.motion.ready_time,
+        config.motion.approach_speed}},
+      {"limit_share", config.limit_share},
+      {"max_evaluations", config.max_evaluations},
+      {"landing_tolerance", config.landing_tolerance},
+      {"robust",
+       {{"window_lengths", config.robust.window_lengths},
+        {"limit_share", config.robust.limit_share},
+        {"wanted_speed", config.robust.wanted_speed},
+        {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
+      {"grid", {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
 }
 
 fs::path atlasPath(const PlannerConfig& config, const fs::path& folder) {

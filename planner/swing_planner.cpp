@@ -143,7 +143,9 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::aim(SwingTask task,
     const double t_command = 1e-3 * std::round(1e3 * (motion.t_zero + lead));
     const auto prediction = predictor_.predict(motion, request.target, t_command);
     if (!prediction)
-      return Refusal{"the ball is predicted not to leave the hand for the target, or to be touched again by it"};
+      return Refusal{
+          "the ball is predicted not to leave the hand for the target, or to be touched again by "
+          "it"};
     miss = prediction->landing.landing.norm();
     if (miss <= config_.landing_tolerance)
       return Aimed{solution, task.aim, std::move(motion), *prediction};
