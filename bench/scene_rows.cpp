@@ -1,11 +1,19 @@
 #include "bench/scene_rows.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
+#include "bench/held_ball.h"
 #include "bench/timing.h"
 #include "sim_bullet/node.h"
 #include "vision_tracker/config.h"
+#if defined(FASTBALL_HAS_MUJOCO)
+#include <mujoco/mujoco.h>
+
+#include "bench/mujoco_peer.h"
+#endif
 
 namespace fastball::bench {
 namespace {
@@ -33,7 +41,7 @@ struct Simulator {
 Row physicsTick() {
   Simulator simulator;
   const double seconds =
-      secondsPerCall("sim.tick_us", [&] { simulator.scene.brake(simulator.scene.openHand()); });
+      cpuSecondsPerCall("sim.tick_us", [&] { simulator.scene.brake(simulator.scene.openHand()); });
   return {"sim.tick_us",
           seconds * kMicro,
           "us",
@@ -41,6 +49,46 @@ Row physicsTick() {
           sim_bullet::kTick * kMicro,
           "10 steps of 0.1 ms, arm and open hand at rest"};
 }
+
+/// A physics step while three fingers hold the ball.
+Row heldStep() {
+  HeldBall held;
+  const double seconds = cpuSecondsPerCall("sim.step_us", [&] { held.tick(); });
+  const int steps = held.settings().substeps;
+  return {"sim.step_us",
+          seconds / steps * kMicro,
+          "us",
+          "simulated time",
+          sim_bullet::kTick / steps * kMicro,
+          "arm braked, three fingers hold the ball; servos, contacts and sensors included"};
+}
+
+Row realTimeFactor() {
+  HeldBall held;
+  const double seconds = cpuSecondsPerCall("sim.real_time_factor", [&] { held.tick(); });
+  return {"sim.real_time_factor",
+          sim_bullet::kTick / seconds,
+          "times",
+          "the clock",
+          1,
+          "the same scene at 0.1 ms, without images, one core"};
+}
+
+#if defined(FASTBALL_HAS_MUJOCO)
+Row mujocoRatio() {
+  HeldBall held;
+  const double peer = mujocoSecondsPerStep(held);
+  const int steps = held.settings().substeps;
+  const double own = cpuSecondsPerCall("sim.step_us", [&] { held.tick(); }) / steps;
+  return {"sim.mujoco_ratio",
+          peer / own,
+          "times",
+          "MuJoCo",
+          1,
+          fmt::format("MuJoCo {} takes {:.1f} us for a step of the same scene, Bullet {:.1f}",
+                      mj_versionString(), peer * kMicro, own * kMicro)};
+}
+#endif
 
 /// Cameras that look at a scene which stands still.
 class StillCameras {
@@ -115,7 +163,16 @@ Row search() {
 }  // namespace
 
 std::vector<Benchmark> sceneBenchmarks() {
-  return {{"sim.tick_us", physicsTick}, {"camera.pair_ms", drawing}, {"vision.pair_ms", search}};
+  return {
+    {"sim.tick_us", physicsTick}, {"sim.step_us", heldStep},
+        {"sim.real_time_factor", realTimeFactor},
+#if defined(FASTBALL_HAS_MUJOCO)
+        {"sim.mujoco_ratio", mujocoRatio},
+#endif
+        {"camera.pair_ms", drawing}, {
+      "vision.pair_ms", search
+    }
+  };
 }
 
 }  // namespace fastball::bench

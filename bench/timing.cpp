@@ -18,15 +18,14 @@ class Collector : public benchmark::BenchmarkReporter {
   bool ReportContext(const Context& /*context*/) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      seconds = run.real_accumulated_time / static_cast<double>(run.iterations);
+      wall_seconds = run.real_accumulated_time / static_cast<double>(run.iterations);
+      cpu_seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
     }
   }
-  double seconds = -1;
+  double wall_seconds = -1, cpu_seconds = -1;
 };
 
-}  // namespace
-
-double secondsPerCall(const std::string& id, const std::function<void()>& call) {
+Collector measured(const std::string& id, const std::function<void()>& call) {
   benchmark::ClearRegisteredBenchmarks();
   benchmark::RegisterBenchmark(id.c_str(), [&call](benchmark::State& state) {
     for (auto _ : state)
@@ -35,9 +34,19 @@ double secondsPerCall(const std::string& id, const std::function<void()>& call) 
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
   benchmark::ClearRegisteredBenchmarks();
-  if (collector.seconds < 0)
+  if (collector.wall_seconds < 0)
     throw std::runtime_error(fmt::format("{} could not be measured", id));
-  return collector.seconds;
+  return collector;
+}
+
+}  // namespace
+
+double secondsPerCall(const std::string& id, const std::function<void()>& call) {
+  return measured(id, call).wall_seconds;
+}
+
+double cpuSecondsPerCall(const std::string& id, const std::function<void()>& call) {
+  return measured(id, call).cpu_seconds;
 }
 
 std::string privateLcmUrl() {

@@ -2,8 +2,8 @@
 
 #include <random>
 
+#include "bench/held_ball.h"
 #include "config/experiment.h"
-#include "model/grasp.h"
 #include "sim_bullet/config.h"
 #include "sim_bullet/scene.h"
 
@@ -36,20 +36,8 @@ Vector randomVector(std::mt19937& engine, const Vector& most) {
   return v;
 }
 
-/// The hand command that holds the ball: fingers A and B stiff where the grasp wants them, the thumb by its torque.
 inline HandCommand graspCommand(double grip_force) {
-  const model::Hand hand(experiment().hand);
-  const model::GraspGeometry grasp = model::grasp(experiment().ball, hand, grip_force);
-  HandCommand command;
-  command.q = grasp.q;
-  command.kp.setConstant(40);
-  command.kd.setConstant(0.1);
-  for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
-    const int proximal = model::Hand::proximalJoint(finger);
-    command.tau[proximal] = grasp.fingers[finger].torque[1];
-    command.tau[proximal + 1] = grasp.fingers[finger].torque[2];
-  }
-  return command;
+  return bench::graspCommand(experiment(), grip_force);
 }
 
 }  // namespace fastball::sim_bullet
