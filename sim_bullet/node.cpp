@@ -166,7 +166,7 @@ void SimNode::beginImages() {
 
 void SimNode::stepLockstep() {
   if (arm_command_ && hand_command_) {
-    scene_->advance(armTorque(*arm_command_), handCommand(*hand_command_));
+    scene_->advance(armTorque(*arm_command_), heldCommand());
     arm_command_.reset();
     hand_command_.reset();
     afterTick();
@@ -183,7 +183,7 @@ void SimNode::stepRealtime() {
 }
 
 void SimNode::tickRealtime() {
-  const HandCommand hand = hand_command_ ? handCommand(*hand_command_) : scene_->openHand();
+  const HandCommand hand = heldCommand();
   const int64_t limit = std::llround(setup_.settings.watchdog / kTick);
   const bool alive = arm_command_ && scene_->tick() - arm_command_->tick <= limit;
   if (alive)
@@ -194,6 +194,23 @@ void SimNode::tickRealtime() {
     state_.detail = alive ? "" : fmt::format("braking: no ARM_COMMAND for more than {} ms", limit);
   braking_ = !alive;
   afterTick();
+}
+
+HandCommand SimNode::heldCommand() {
+  if (!hand_command_)
+    return scene_->openHand();
+  const HandCommand hand = handCommand(*hand_command_);
+  constexpr int kFingerJoints = model::kHandJoints - model::kSpreadA;
+  int joint = 0;
+  const double fastest = hand.qd.tail<kFingerJoints>().cwiseAbs().maxCoeff(&joint);
+  const double speed_max = setup_.experiment.hand.joint_speed_max;
+  if (fastest > speed_max && state_.detail.empty()) {
+    state_.detail = fmt::format(
+        "saturated: HAND_COMMAND asks for {:.4g} rad/s of hand joint {} at tick {}, its drive does "
+        "{:.4g} rad/s",
+        fastest, model::kSpreadA + joint, scene_->tick(), speed_max);
+  }
+  return hand;
 }
 
 void SimNode::afterTick() {

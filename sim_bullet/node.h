@@ -64,6 +64,8 @@ class SimNode : public messaging::Node {
   void sayCameraInfo();
   void sayImages();
   void afterTick();
+  /// The command that holds through the tick; says once a scene if it asks for more than the hand can do.
+  HandCommand heldCommand();
   void end(const std::string& state, const std::string& note);
   TickStamp stamp() const;
   bool running() const { return scene_ != nullptr; }

@@ -95,6 +95,21 @@ TEST_F(Simulator, SaysTheStateAgainWhenAnAnswerIsLate) {
   EXPECT_EQ(peers_.tick(), 1);
 }
 
+TEST_F(Simulator, SaysThatTheHandIsAskedForMoreSpeedThanItHas) {
+  peers_.answers_hand = false;
+  peers_.sendScene(sceneMessage(1, 1));
+  settle();
+  hand_command_t command = ScriptedPeers::handCommandFor(peers_.hand_states[0]);
+  command.qd[model::kWristRoll] = 40;  // the limit is the fingers'
+  command.qd[model::kDistalThumb] = -40;
+  peers_.sendHand(command);
+  settle();
+  EXPECT_EQ(peers_.tick(), 1);
+  EXPECT_EQ(node_.state().detail,
+            "saturated: HAND_COMMAND asks for 40 rad/s of hand joint 6 at tick 0, its drive does "
+            "31.42 rad/s");
+}
+
 TEST_F(Simulator, LeavesCommandsForOtherTicksAndScenesAlone) {
   peers_.answers_arm = false;
   peers_.sendScene(sceneMessage(3, 1));
