@@ -39,6 +39,14 @@ class DriveInertiaWorld : public btMultiBodyDynamicsWorld {
     btMultiBodyDynamicsWorld::solveExternalForces(info);
     arm_hand_.addDriveInertia(qd_before, info.m_timeStep);
   }
+  /// The links have no colliders whose places Bullet would have to foresee or keep.
+  void predictUnconstraintMotion(btScalar dt) override {
+    btDiscreteDynamicsWorld::predictUnconstraintMotion(dt);
+  }
+  void integrateTransforms(btScalar dt) override {
+    btDiscreteDynamicsWorld::integrateTransforms(dt);
+    arm_hand_.body().stepPositionsMultiDof(dt);
+  }
 
  private:
   ArmHand& arm_hand_;

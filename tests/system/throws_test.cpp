@@ -31,7 +31,7 @@ TEST(Throws, ThreeLandWhereTheCamerasSayAndTwoHit) {
     }
     const double speed = object["release_speed_mps"];
     const double planned = object["planned_speed_mps"];
-    EXPECT_GE(speed, 4.5);
+    EXPECT_GE(speed, 5.0);
     EXPECT_NEAR(speed, planned, 0.05 * planned);
   }
   EXPECT_GE(run.json["hits"], 2);
