@@ -12,6 +12,7 @@
 #include "launch/run_setup.h"
 #include "planner/atlas_builder.h"
 #include "planner/atlas_file.h"
+#include "planner/request_check.h"
 
 namespace fastball::launch {
 namespace {
@@ -70,6 +71,8 @@ bool ensureAtlas(const planner::PlannerConfig& config,
     return true;
   if (!found.fault.empty())
     progress.line(found.fault + "; it is made anew");
+  if (planner::configFault(config))
+    return false;  // the planner will say why nothing can be planned
   if (const std::string why = obstacle(path); !why.empty()) {
     progress.line("no atlas of throws can be kept, each throw is planned from the start: " + why);
     return false;

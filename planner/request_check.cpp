@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <vector>
+
+#include "model/grasp.h"
 
 namespace fastball::planner {
 namespace {
@@ -98,6 +101,11 @@ std::optional<std::string> configFault(const PlannerConfig& config) {
             config.arm.profile, number.name, number.value, number.low, number.high);
       }
     }
+  }
+  try {
+    model::grasp(config.ball, model::Hand(config.hand), config.grip_force);
+  } catch (const std::invalid_argument& e) {
+    return fmt::format("no throw can be planned: {}", e.what());
   }
   return {};
 }

@@ -35,6 +35,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadLimit{"BallWithoutMass", [](PlannerConfig& c) { c.ball.mass = 0; }},
         BadLimit{"BallMassNan", [](PlannerConfig& c) { c.ball.mass = kNan; }},
         BadLimit{"GravityInfinite", [](PlannerConfig& c) { c.arm.gravity = kInfinity; }},
+        BadLimit{"FingersTooShort", [](PlannerConfig& c) { c.hand.proximal_length = 0.01; }},
+        BadLimit{"GripTooStrong", [](PlannerConfig& c) { c.grip_force = 500; }},
         BadLimit{"ElbowMarginNan", [](PlannerConfig& c) { c.swing.elbow_margin = kNan; }}),
     [](const auto& test) { return std::string(test.param.name); });
 
