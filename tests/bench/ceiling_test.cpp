@@ -9,24 +9,12 @@
 #include <limits>
 
 #include "tests/bench/free_throws.h"
+#include "tests/planner/plan_checks.h"
 
 namespace fastball::bench {
 namespace {
 
 using testing::HasSubstr;
-
-/// Where the ball crosses the target plane [m], by an integration of our own: small steps, midpoint rule.
-Eigen::Vector2d landingOf(const model::BallState& release, const model::Target& target, double k) {
-  constexpr double kStep = 2e-5;
-  const Eigen::Vector3d gravity(0, 0, -9.81);
-  Eigen::Vector3d p = release.p_WBall, v = release.v_WBall;
-  while (target.distance(p) > 0 && p.z() > -20) {
-    const Eigen::Vector3d v_middle = v + 0.5 * kStep * (gravity - k * v.norm() * v);
-    p += kStep * v_middle;
-    v += kStep * (gravity - k * v_middle.norm() * v_middle);
-  }
-  return target.planeCoordinates(p);
-}
 
 /// What the arm's data sheet and the planner's configuration allow, written out here once more.
 void expectPossible(const FreeThrows& throws,
@@ -65,7 +53,7 @@ void expectPossible(const FreeThrows& throws,
   const model::BallState ball{throws.arm.p_WPoint(at.q, throws.config.hand.p_HBall),
                               throws.arm.pointJacobian(at.q, throws.config.hand.p_HBall) * at.qd};
   EXPECT_NEAR(ball.v_WBall.norm(), ceiling.release_speed, 1e-9);
-  EXPECT_LT(landingOf(ball, target, throws.config.ball.dragPerMetre()).norm(), 1e-3);
+  EXPECT_LT(planner::landingOf(ball, target, throws.config.ball.dragPerMetre()).norm(), 1e-3);
 }
 
 TEST(CeilingTest, IsAThrowAsFastAsTheSpeedLimitsAllow) {
