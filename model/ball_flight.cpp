@@ -93,14 +93,14 @@ class Step {
     return target_.n_WTarget.dot(flightAcceleration(at(h).v_WBall, drag_per_metre_, gravity_));
   }
 
-  /// Time within (0, h] at which the distance falls to zero, if it does.
-  std::optional<double> crossing(double h) const {
-    if (!(distance(0) > 0))
+  /// Time within (0, h] at which the distance falls to zero, if it does; `after`: at(h).
+  std::optional<double> crossing(double h, const BallState& after) const {
+    if (!(target_.distance(start_.p_WBall) > 0))
       return std::nullopt;
     double end = h;
-    if (distance(h) > 0) {
+    if (target_.distance(after.p_WBall) > 0) {
       // The ball may touch the plane between both ends and come back.
-      if (!(rate(0) < 0 && rate(h) > 0))
+      if (!(target_.n_WTarget.dot(start_.v_WBall) < 0 && target_.n_WTarget.dot(after.v_WBall) > 0))
         return std::nullopt;
       end = fallingRoot([&](double t) { return -rate(t); },
                         [&](double t) { return -acceleration(t); }, 0, h);
@@ -188,14 +188,15 @@ std::optional<Landing> land(const BallState& start,
     const double time = static_cast<double>(i) * kLargestStep;
     const double h = std::min(kLargestStep, max_time - time);
     const Step step(state, target, drag_per_metre, gravity);
-    if (const std::optional<double> crossing = step.crossing(h)) {
+    const BallState after = step.at(h);
+    if (const std::optional<double> crossing = step.crossing(h, after)) {
       Landing landing;
       landing.time = time + *crossing;
       landing.state = step.at(*crossing);
       landing.landing = target.planeCoordinates(landing.state.p_WBall);
       return landing;
     }
-    state = step.at(h);
+    state = after;
   }
   return std::nullopt;
 }
