@@ -61,10 +61,11 @@ struct Planner::Candidate {
   int preference;  ///< of its kind
   double worth;
 
-  bool likely() const { return start.inside >= kLikely && start.interpolated; }
+  /// How likely a few steps lead from it to a throw: 2, 1 or 0.
+  int promise() const { return start.inside < kLikely ? 0 : start.interpolated ? 2 : 1; }
   bool before(const Candidate& other) const {
-    if (likely() != other.likely())
-      return likely();
+    if (promise() != other.promise())
+      return promise() > other.promise();
     if (preference != other.preference)
       return preference < other.preference;
     if (start.window != other.start.window)

@@ -25,6 +25,10 @@ constexpr double kGain = 0.003, kNearly = 2e-3;
 // A small violation [of the constraints] that is left is then repaired with so many evaluations.
 constexpr double kRepairable = 0.05;
 constexpr int kRepair = 12;
+// Newton steps onto constraints that are broken by no more than so much, when that is over, and what keeps the steps finite where
+// constraints say the same.
+constexpr int kProjections = 4;
+constexpr double kProjectable = 0.3, kProjected = 1e-4, kNormalDamping = 1e-9;
 
 /// What is minimised: minus Eq. (15) with K_r a multiple of the identity, or the distance from given variables.
 class Objective {
@@ -150,6 +154,59 @@ void minimise(ScaledSwing& swing, Objective& wanted, int max_evaluations, std::v
   }
 }
 
+/// The shortest step to where the linearised constraints hold: onto the equalities, and onto every inequality that would be exceeded
+/// without.
+Eigen::VectorXd stepOnto(const ScaledSwing::Values& values, const ScaledSwing::Gradients& slopes) {
+  const Eigen::Index equalities = values.equalities.size();
+  std::vector<Eigen::Index> active;
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(slopes.equalities.cols());
+  for (;;) {
+    const Eigen::VectorXd reached = values.inequalities + slopes.inequalities * step;
+    const std::size_t known = active.size();
+    for (Eigen::Index i = 0; i < reached.size(); ++i) {
+      if (reached[i] > kTolerance / 2 && std::find(active.begin(), active.end(), i) == active.end())
+        active.push_back(i);
+    }
+    if (active.size() == known && !step.isZero(0))
+      return step;
+    const auto rows = equalities + static_cast<Eigen::Index>(active.size());
+    ScaledSwing::Matrix A(rows, step.size());
+    Eigen::VectorXd c(rows);
+    A.topRows(equalities) = slopes.equalities;
+    c.head(equalities) = values.equalities;
+    for (Eigen::Index k = equalities; k < rows; ++k) {
+      A.row(k) = slopes.inequalities.row(active[k - equalities]);
+      c[k] = values.inequalities[active[k - equalities]];
+    }
+    Eigen::MatrixXd normal = A * A.transpose();
+    normal.diagonal().array() += kNormalDamping;
+    step = -A.transpose() * normal.ldlt().solve(c);
+    if (active.size() == known)
+      return step;
+  }
+}
+
+/// Newton's way to u that keeps the constraints, in place: quicker than repair() where they are nearly kept.
+/// @return false if it does not get there; u is then as it was.
+bool project(ScaledSwing& swing, std::vector<double>& u) {
+  const std::vector<double> low = swing.lower(), high = swing.upper();
+  std::vector<double> next = u;
+  for (int i = 0;; ++i) {
+    const ScaledSwing::Values values = swing.values(next.data());
+    if (!values.finite || values.violation() > kProjectable)
+      return false;
+    if (values.violation() <= kProjected) {
+      u = next;
+      return true;
+    }
+    if (i == kProjections)
+      return false;
+    const Eigen::VectorXd step = stepOnto(values, swing.gradients(next.data()));
+    for (std::size_t k = 0; k < next.size(); ++k)
+      next[k] = std::clamp(next[k] + step[static_cast<Eigen::Index>(k)], low[k], high[k]);
+  }
+}
+
 /// The nearest u that keeps the constraints, in place.
 void repair(ScaledSwing& swing, int max_evaluations, std::vector<double>& u) {
   const std::vector<double> near = u;
@@ -214,7 +271,8 @@ SwingSolution correctSwing(const SwingTask& task, const SwingSolution& near, int
   std::vector<double> u = swing.start();
   if (!isFinite(u))
     return unsolved(near.x, near.elbow_sign);
-  repair(swing, max_evaluations, u);
+  if (!project(swing, u))
+    repair(swing, max_evaluations, u);
   return solutionAt(problem, swing, u);
 }
 
