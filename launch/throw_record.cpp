@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "logger/log_reader.h"
 #include "messaging/channels.h"
@@ -12,59 +13,64 @@
 namespace fastball::launch {
 namespace {
 
-/// Decoders by channel; each puts a sound message where it belongs and passes over any other.
-class ThrowReader {
- public:
-  ThrowReader() {
-    keep(messaging::kPlanRequest,
-         [this](const plan_request_t& m) { at(m.request_id).request = m; });
-    keep(messaging::kSwingPlan, [this](const swing_plan_t& m) { at(m.plan_id).plan = m; });
-    keep(messaging::kScene, [this](const scene_t& m) { at(m.scene_id).scene = m; });
-    keep(messaging::kThrowStart, [this](const throw_start_t& m) { at(m.scene_id).start = m; });
-    keep(messaging::kRelease, [this](const release_t& m) {
-      (m.event == release_t::DEPARTED ? at(m.scene_id).departed : at(m.scene_id).commanded) = m;
-    });
-    keep(messaging::kLanding, [this](const landing_t& m) { at(m.request_id).landing = m; });
-    keep(messaging::kBallTrack,
-         [this](const ball_track_t& m) { at(m.request_id).track.push_back(m); });
-    keep(messaging::kArmState, [this](const arm_state_t& m) {
-      auto& arm = at(m.scene_id).arm;
-      if (arm.empty() || m.tick > arm.back().tick)  // a state said again is the same state
-        arm.push_back(m);
-    });
-  }
+/// Appends a state; one that is said again, as in lockstep, is the same state.
+template <class State>
+void append(std::vector<State>& states, const State& state) {
+  if (states.empty() || state.tick > states.back().tick)
+    states.push_back(state);
+}
 
-  void read(const logger::LogEntry& entry) {
-    const auto reader = readers_.find(entry.channel);
-    if (reader != readers_.end())
-      reader->second(entry);
-  }
-
-  std::map<int64_t, ThrowRecord> throws;
-
- private:
-  ThrowRecord& at(int64_t number) { return throws[number]; }
-
-  template <class T, class Put>
-  void keep(const messaging::Channel<T>& channel, Put put) {
-    readers_[channel.name] = [put](const logger::LogEntry& entry) {
-      T message{};
-      if (entry.decode(message) && !messaging::fault(message))
-        put(message);
-    };
-  }
-
-  std::map<std::string, std::function<void(const logger::LogEntry&)>> readers_;
-};
+/// Tells `visit` of every channel that a record is made of, and of what puts its messages where they belong.
+template <class Visit>
+void forEachChannel(std::map<int64_t, ThrowRecord>& throws, const Visit& visit) {
+  using std::function;
+  visit(messaging::kPlanRequest,
+        function([&throws](const plan_request_t& m) { throws[m.request_id].request = m; }));
+  visit(messaging::kSwingPlan,
+        function([&throws](const swing_plan_t& m) { throws[m.plan_id].plan = m; }));
+  visit(messaging::kScene, function([&throws](const scene_t& m) { throws[m.scene_id].scene = m; }));
+  visit(messaging::kThrowStart,
+        function([&throws](const throw_start_t& m) { throws[m.scene_id].start = m; }));
+  visit(messaging::kRelease, function([&throws](const release_t& m) {
+          ThrowRecord& record = throws[m.scene_id];
+          (m.event == release_t::DEPARTED ? record.departed : record.commanded) = m;
+        }));
+  visit(messaging::kLanding,
+        function([&throws](const landing_t& m) { throws[m.request_id].landing = m; }));
+  visit(messaging::kBallTrack,
+        function([&throws](const ball_track_t& m) { throws[m.request_id].track.push_back(m); }));
+  visit(messaging::kArmState,
+        function([&throws](const arm_state_t& m) { append(throws[m.scene_id].arm, m); }));
+  visit(messaging::kHandState,
+        function([&throws](const hand_state_t& m) { append(throws[m.scene_id].hand, m); }));
+}
 
 }  // namespace
 
 std::map<int64_t, ThrowRecord> readThrows(const std::string& log_path) {
-  ThrowReader reader;
-  logger::readLog(log_path, [&](const logger::LogEntry& entry) { reader.read(entry); });
-  if (reader.throws.empty())
+  std::map<int64_t, ThrowRecord> throws;
+  std::map<std::string, std::function<void(const logger::LogEntry&)>> readers;
+  forEachChannel(throws, [&readers](const auto& channel, const auto& put) {
+    readers[channel.name] = [put](const logger::LogEntry& entry) {
+      typename std::decay_t<decltype(channel)>::Message message{};
+      if (entry.decode(message) && !messaging::fault(message))
+        put(message);
+    };
+  });
+  logger::readLog(log_path, [&readers](const logger::LogEntry& entry) {
+    const auto reader = readers.find(entry.channel);
+    if (reader != readers.end())
+      reader->second(entry);
+  });
+  if (throws.empty())
     throw std::invalid_argument(fmt::format("'{}' holds no throw", log_path));
-  return std::move(reader.throws);
+  return throws;
+}
+
+void recordThrows(messaging::Endpoint& endpoint, std::map<int64_t, ThrowRecord>& throws) {
+  forEachChannel(throws, [&endpoint](const auto& channel, const auto& put) {
+    endpoint.subscribe(channel, put);
+  });
 }
 
 }  // namespace fastball::launch

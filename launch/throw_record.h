@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "lcmtypes/fastball_types.h"
+#include "messaging/endpoint.h"
 
 namespace fastball::launch {
 
-/// What a log tells of one throw. A message that the log does not hold is absent; nothing here comes from SIM_TRUTH.
+/// What a run tells of one throw. A message that was not heard is absent; nothing here comes from SIM_TRUTH.
 struct ThrowRecord {
   std::optional<plan_request_t> request;
   std::optional<swing_plan_t> plan;
@@ -18,11 +19,15 @@ struct ThrowRecord {
   std::optional<release_t> commanded, departed;
   std::optional<landing_t> landing;
   std::vector<arm_state_t> arm;     ///< one a tick, in order
+  std::vector<hand_state_t> hand;   ///< one a tick, in order
   std::vector<ball_track_t> track;  ///< in order
 };
 
 /// All throws of a log by their number.
 /// @throw std::invalid_argument if the file cannot be read or holds no throw.
 std::map<int64_t, ThrowRecord> readThrows(const std::string& log_path);
+
+/// The same of a run that goes on: subscribes to what a record is made of. `throws` must outlive the endpoint.
+void recordThrows(messaging::Endpoint& endpoint, std::map<int64_t, ThrowRecord>& throws);
 
 }  // namespace fastball::launch
