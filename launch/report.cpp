@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "launch/release_drawing.h"
+
 namespace fastball::launch {
 namespace {
 
@@ -33,6 +35,29 @@ std::string csvLine(int64_t number, const ThrowRecord& record) {
   return line + "\n";
 }
 
+void drawPictures(const ThrowRecord& record,
+                  int64_t number,
+                  const config::Experiment& experiment,
+                  const std::string& folder,
+                  std::vector<std::string>& failures) {
+  const auto attempt = [&](const char* what, const auto& draw) {
+    try {
+      draw(fmt::format("{}/{}-{}", folder, what, number));
+    } catch (const std::runtime_error& error) {
+      failures.push_back(
+          fmt::format("throw {} has no picture {}-{}: {}", number, what, number, error.what()));
+    }
+  };
+  attempt("throw",
+          [&](const std::string& path_stem) { drawThrow(record, number, experiment, path_stem); });
+  attempt("release", [&](const std::string& path_stem) {
+    const std::string caption =
+        drawRelease(record, experiment, fmt::format("Throw {}", number), path_stem);
+    if (!(std::ofstream(path_stem + ".txt") << caption << '\n').flush())
+      throw std::runtime_error(fmt::format("cannot write '{}.txt'", path_stem));
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> writeReport(const std::string& log_path,
@@ -46,11 +71,7 @@ std::vector<std::string> writeReport(const std::string& log_path,
          "sigma_right_mm,sigma_up_mm,observations,residual_px\n";
   for (const auto& [number, record] : throws) {
     csv << csvLine(number, record);
-    try {
-      drawThrow(record, number, experiment, fmt::format("{}/throw-{}", folder, number));
-    } catch (const std::runtime_error& error) {
-      failures.push_back(fmt::format("throw {} has no picture: {}", number, error.what()));
-    }
+    drawPictures(record, number, experiment, folder, failures);
   }
   if (!csv.flush())
     throw std::runtime_error(fmt::format("cannot write '{}/throws.csv'", folder));

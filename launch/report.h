@@ -17,8 +17,9 @@ void drawThrow(const ThrowRecord& record,
                const config::Experiment& experiment,
                const std::string& path_stem);
 
-/// Pictures of every throw of a log, and throws.csv with a line each, in `folder` (made if absent).
-/// @return one sentence for each throw that could not be drawn.
+/// Pictures of every throw of a log (throw-1, release-1 with its caption and its numbers, ...), and throws.csv with a line
+/// each, in `folder` (made if absent).
+/// @return one sentence for each picture that could not be drawn.
 std::vector<std::string> writeReport(const std::string& log_path,
                                      const config::Experiment& experiment,
                                      const std::string& folder);

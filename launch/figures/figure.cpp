@@ -74,6 +74,7 @@ const std::vector<Figure>& allFigures() {
       {"fig08", "Rolling distance and normal force (Fig. 8)", drawRollingRange},
       {"fig09", "What rolling does for the direction of the throw (Fig. 9)", drawReleaseShift},
       {"fig11", "The planned throw on the simulated arm (Fig. 11)", drawTracking},
+      {"fig12", "Hand and ball at the release (Fig. 12)", drawReleasePicture},
       {"fig14_15", "The elastic ball: force, displacement and delay (Figs. 14, 15)",
        drawElasticRelease},
       {"fig_budget", "What the kinetic chain is worth", drawTorqueBudget},

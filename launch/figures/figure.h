@@ -44,6 +44,7 @@ std::string drawPlannedSwing(const FigureTask& task);
 std::string drawRollingRange(const FigureTask& task);
 std::string drawReleaseShift(const FigureTask& task);
 std::string drawTracking(const FigureTask& task);
+std::string drawReleasePicture(const FigureTask& task);
 std::string drawElasticRelease(const FigureTask& task);
 std::string drawTorqueBudget(const FigureTask& task);
 std::string drawPlanCost(const FigureTask& task);

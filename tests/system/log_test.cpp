@@ -101,6 +101,9 @@ TEST_F(RecordedThrow, DrawsItself) {
   EXPECT_EQ(report.exit_status, 0) << report.output;
   EXPECT_GT(std::filesystem::file_size(folder / "throw-1.png"), 10000U);
   EXPECT_GT(std::filesystem::file_size(folder / "throw-1.svg"), 10000U);
+  EXPECT_GT(std::filesystem::file_size(folder / "release-1.png"), 10000U);
+  EXPECT_GT(std::filesystem::file_size(folder / "release-1.csv"), 10000U);
+  EXPECT_GT(std::filesystem::file_size(folder / "release-1.txt"), 100U);
   std::ifstream table(folder / "throws.csv");
   std::string header, line;
   std::getline(table, header);
