@@ -188,11 +188,11 @@ class ElasticBall {
     piece.events = {
         [this, touching](double t, const State& y) { return touching ? push(t, y) : -push(t, y); }};
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      piece.events.push_back([this, i](double t, const State& y) {
+      piece.events.emplace_back([this, i](double t, const State& y) {
         return press(static_cast<int>(i), hand_at_(t), y).y;
       });
     }
-    piece.events.push_back([this](double t, const State& y) {
+    piece.events.emplace_back([this](double t, const State& y) {
       const Eigen::Isometry3d X_WF = hand_at_(t).X_WH * fingers_.X_HF;
       return task_.fingertip - (X_WF.inverse() * Vector3d(y.segment<3>(kPlace))).x();
     });

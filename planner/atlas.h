@@ -22,7 +22,8 @@ struct AtlasGrid {
   int node(int column, int row) const { return row * columns() + column; }
   /// Distance and height [m] of a node.
   Eigen::Vector2d place(int node) const {
-    return {distance[0] + step * (node % columns()), height[0] + step * (node / columns())};
+    const int column = node % columns(), row = node / columns();
+    return {distance[0] + step * column, height[0] + step * row};
   }
 
  private:

@@ -264,7 +264,7 @@ class Swings : public PlannedThrows {
                                     double share) const {
     for (int round = 0; round < kAimRounds; ++round) {
       const Eigen::Vector3d aim = start.aim;
-      const auto found = solved(place, start, share);
+      auto found = solved(place, start, share);
       if (!found || (found->aim - aim).norm() < kSwingAimed)
         return found;
       start = *found;
