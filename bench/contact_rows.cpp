@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/contact_comparison.h"
+#include "bench/felt_throws.h"
 
 namespace fastball::bench {
 namespace {
@@ -52,15 +54,36 @@ Row row(const std::string& id, double ContactError::*error, double scale, const 
                       worst().cases)};
 }
 
+Row departureRow(const char* id) {
+  constexpr int kThrows = 100;  // of each mode
+  const std::string path = config::defaultExperimentPath();
+  double felt = 0, last_touch = 0;
+  for (const char* strategy : {"paper", "robust"}) {
+    const DepartureError error = departureError(FeltThrows(path, strategy), unknownBall(), kThrows);
+    felt += error.felt * error.felt / 2;
+    last_touch += error.last_touch * error.last_touch / 2;
+  }
+  return {id,
+          kMilli * std::sqrt(felt),
+          "ms",
+          "last state with a touch",
+          kMilli * std::sqrt(last_touch),
+          fmt::format("departure as the fingers feel it against the simulator's, rms of {} throws "
+                      "with E, mu, mass, offset and sensor noise drawn, abrupt and sync_retreat",
+                      2 * kThrows)};
+}
+
 }  // namespace
 
 std::vector<Benchmark> contactBenchmarks() {
   const char* const rolling = "contact.rolling_error_mm";
   const char* const force = "contact.force_error_n";
   const char* const release = "contact.release_error_ms";
+  const char* const departure = "contact.departure_rms_ms";
   return {{rolling, [=] { return row(rolling, &ContactError::rolling, kMilli, "mm"); }},
           {force, [=] { return row(force, &ContactError::force, 1, "N"); }},
-          {release, [=] { return row(release, &ContactError::release, kMilli, "ms"); }}};
+          {release, [=] { return row(release, &ContactError::release, kMilli, "ms"); }},
+          {departure, [=] { return departureRow(departure); }}};
 }
 
 }  // namespace fastball::bench

@@ -17,7 +17,9 @@ HandServerConfig loadConfig(const std::string& path) {
   result.settle_time = section.number("settle_time", config::kNonNegative);
   result.settle_constant = section.number("settle_constant", {0.005, 1});
   result.clear_delay = section.number("clear_delay", config::kPositive);
-  result.quiet_time = section.number("quiet_time", config::kPositive);
+  result.force_noise = section.number("force_noise", {0, 1});
+  result.force_delay = section.number("force_delay", {0, 0.02});
+  result.quiet_time = section.number("quiet_time", {0.002, 0.025});
   result.grip_share = section.number("grip_share", {0, 1});
   result.arm_bound = section.number("arm_bound", config::kPositive);
   section.finish();

@@ -15,6 +15,8 @@ namespace {
 
 using model::HandVector;
 
+constexpr double kHalfTick = 0.5e-3;  // [s], a force is the mean over a tick
+
 bool operator==(const ThrowOrder& a, const ThrowOrder& b) {
   return a.plan_id == b.plan_id && a.scene_id == b.scene_id && a.start_utime == b.start_utime;
 }
@@ -142,7 +144,8 @@ void HandController::beginScene(const HandSample& sample) {
   phase_ = Phase::kOpen;
   path_ = model::JointPath(sample.q, q_open_, sample.utime, config_.release.clear_time);
   slip_watch_ = {};
-  ball_watch_ = BallWatch(config_.release.touch_force, config_.quiet_time);
+  ball_watch_ = BallWatch(
+      {config_.release.touch_force, config_.quiet_time, config_.force_noise, config_.force_delay});
   if (order_ && order_->scene_id == sample.scene_id) {
     beginThrow(sample);
   } else if (order_ && order_->scene_id < sample.scene_id) {
@@ -239,9 +242,10 @@ void HandController::watchSlip(const HandSample& sample) {
   if (t < run_->plan.t_swing) {
     return;
   }
+  const double felt_at = t - config_.force_delay - kHalfTick;
   const double needed =
       ball_.mass *
-      carryingAcceleration(arm_, run_->plan.arm.at(t), X_TH_, hand_.parameters().p_HBall).z();
+      carryingAcceleration(arm_, run_->plan.arm.at(felt_at), X_TH_, hand_.parameters().p_HBall).z();
   if (const auto slip = slip_watch_.step(needed, sample.tangential)) {
     notice_ = fmt::format(
         "the ball slips {:.3g} s into the swing: the fingers carry it with {:.3g} N of the {:.3g} "
@@ -265,8 +269,10 @@ void HandController::watchBall(const HandSample& sample) {
   }
   if (const auto finger = ball_watch_.touchedAgain(sample.force)) {
     constexpr std::array<const char*, model::kFingers> kNames{"finger A", "the thumb", "finger B"};
-    notice_ = fmt::format("{} touched the ball again {:.3g} ms after it had left", kNames[*finger],
-                          1e-3 * static_cast<double>(sample.utime - ball_watch_.lastTouch().utime));
+    notice_ = fmt::format(
+        "{} touched the ball again {:.3g} ms after it had left", kNames[*finger],
+        1e3 * (1e-6 * static_cast<double>(sample.utime - ball_watch_.departure().utime) -
+               config_.force_delay));
   }
 }
 

@@ -49,7 +49,7 @@ struct ThrowOrder {
 /// That the hand was told to let go, or that the ball has left it.
 struct ReleaseEvent {
   enum class Kind : int8_t { kCommanded = 0, kDeparted = 1 };
-  int64_t utime = 0;  ///< [us]
+  int64_t utime = 0;  ///< [us]; kDeparted: estimated from the decaying forces
   int64_t plan_id = 0;
   Kind kind = Kind::kCommanded;
   ReleaseBy reason = ReleaseBy::kPlanTime;

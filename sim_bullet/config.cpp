@@ -11,6 +11,15 @@ StopSettings readStop(config::Section section) {
   return stop;
 }
 
+TactileSettings readTactile(config::Section section) {
+  TactileSettings tactile;
+  tactile.noise = section.number("noise", {0, 1});
+  tactile.delay = section.number("delay", {0, 0.02});
+  tactile.resolution = section.number("resolution", {0, 1});
+  section.finish();
+  return tactile;
+}
+
 NetSettings readNet(config::Section section) {
   NetSettings net;
   net.tube_radius = section.number("tube_radius", {1e-3, 0.05});
@@ -49,6 +58,7 @@ SimulationSettings loadSimulationSettings(const std::string& experiment_path) {
   settings.open_clearance = section.number("open_clearance", {0, 0.1});
   settings.feeder_release = section.number("feeder_release", {0, 100});
   settings.feeder_frequency = section.number("feeder_frequency", {10, 2000});
+  settings.tactile = readTactile(section.section("tactile"));
   settings.net = readNet(section.section("net"));
   settings.floor = readFloor(section.section("floor"));
   section.finish();

@@ -30,6 +30,13 @@ struct FloorSettings {
   double restitution = 0;
 };
 
+/// The force sensors in the fingertips.
+struct TactileSettings {
+  double noise = 0;       ///< [N], standard deviation of each component, white at 1 kHz
+  double delay = 0;       ///< [s], from a force to its reading
+  double resolution = 0;  ///< [N], step of the reading; 0: none
+};
+
 /// Section `simulation` of the experiment file.
 struct SimulationSettings {
   int substeps = 0;     ///< physics steps in a control tick
@@ -42,6 +49,7 @@ struct SimulationSettings {
   double open_clearance = 0;    ///< [m], between ball and open fingers at the start of a scene
   double feeder_release = 0;    ///< [s] after the scene's start, the feeder lets the ball go
   double feeder_frequency = 0;  ///< [rad/s], of the ball on the feeder's spring, critically damped
+  TactileSettings tactile;
   NetSettings net;
   FloorSettings floor;
 };

@@ -59,6 +59,7 @@ Scene::Scene(const config::Experiment& experiment,
       world_(arm_hand_, errors_.ball, start.target, settings.net, settings.floor, gravity_),
       contacts_(experiment.hand, errors_.ball),
       servo_(experiment.hand, errors_.finger_delay, kTick / settings.substeps),
+      tactile_(settings.tactile, kTick / settings.substeps, start.seed),
       stops_(experiment.arm, experiment.hand, settings),
       feeder_(experiment.hand.p_HBall + errors_.ball_offset_H,
               errors_.ball,
@@ -97,6 +98,7 @@ void Scene::tickWith(const Vector4d* tau_arm, const HandCommand& hand) {
     force.normal *= share;
     force.tangential *= share;
   }
+  state_.felt = tactile_.read();
   ++tick_;
   readState();
 }
@@ -138,6 +140,7 @@ void Scene::pushBall(double dt, JudgedStep* judged) {
   judged->held = static_cast<double>(substep_) * dt < settings_.feeder_release;
   Wrench wrench = contacts_.step(arm_hand_, ball, dt);
   judged->hand_touches = contacts_.touching();
+  tactile_.step(contacts_.forces());
   for (int i = 0; i < model::kFingers; ++i) {
     state_.forces[i].normal += contacts_.forces()[i].normal;
     state_.forces[i].tangential += contacts_.forces()[i].tangential;

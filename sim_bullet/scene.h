@@ -16,6 +16,7 @@
 #include "sim_bullet/landing_judge.h"
 #include "sim_bullet/net_bag.h"
 #include "sim_bullet/snapshot.h"
+#include "sim_bullet/tactile_sensor.h"
 #include "sim_bullet/uncertainty.h"
 #include "sim_bullet/world.h"
 
@@ -31,7 +32,8 @@ struct RobotState {
   JointVectors q, qd;                                 ///< as they are
   model::HandVector tau_hand =
       model::HandVector::Zero();                    ///< [N m], drives, mean over the tick before
-  std::array<FingerForce, model::kFingers> forces;  ///< mean over the tick before
+  FingertipForces forces;                           ///< mean over the tick before, as it is
+  FingertipForces felt;                             ///< as the fingertips' sensors read
 };
 
 /// What a scene begins with.
@@ -84,6 +86,7 @@ class Scene {
   World world_;
   BallContacts contacts_;
   HandServo servo_;
+  TactileSensor tactile_;
   JointStops stops_;
   Feeder feeder_;
   NetBag bag_;

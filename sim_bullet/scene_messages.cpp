@@ -40,8 +40,8 @@ hand_state_t handState(const TickStamp& stamp, const RobotState& state) {
   copyTo(message.qd, state.qd.hand);
   copyTo(message.tau, state.tau_hand);
   for (int i = 0; i < model::kFingers; ++i) {
-    message.f_normal[i] = state.forces[i].normal;
-    copyTo(message.f_tangential[i], state.forces[i].tangential);
+    message.f_normal[i] = state.felt[i].normal;
+    copyTo(message.f_tangential[i], state.felt[i].tangential);
   }
   return message;
 }

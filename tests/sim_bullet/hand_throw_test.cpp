@@ -74,8 +74,8 @@ class HandThrow : public testing::Test {
       const RobotState& robot = scene.state();
       hand_server::HandSample sample{1000 * k, 1, k, robot.q.hand, robot.qd.hand};
       for (int i = 0; i < model::kFingers; ++i) {
-        sample.force[i] = robot.forces[i].normal;
-        sample.tangential[i] = robot.forces[i].tangential;
+        sample.force[i] = robot.felt[i].normal;
+        sample.tangential[i] = robot.felt[i].tangential;
       }
       const auto told = hand.answer(sample).value();
       const model::ArmMotion motion = plan.trajectory.at(t);
