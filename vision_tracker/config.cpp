@@ -23,7 +23,11 @@ TrackerConfig readTracker(const std::string& path) {
   prior.drag = experiment.ball.dragPerMetre();
   prior.drag_sigma = prior.drag * section.number("drag_uncertainty", {1e-3, 10});
   prior.bias_sigma = section.number("bias", {1e-4, 10});
-  prior.alike = section.number("alike", {1, 1000});
+  config::Section calibration = section.section("calibration");
+  prior.calibration.rotation = calibration.number("rotation", {0, 0.1});
+  prior.calibration.position = calibration.number("position", {0, 1});
+  prior.calibration.focal_length = calibration.number("focal_length", {0, 0.1});
+  calibration.finish();
   config.tracker.longest_gap = section.number("longest_gap", {0.01, 1});
   config.silence = section.number("silence", {0.1, 60});
   section.finish();

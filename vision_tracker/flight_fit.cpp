@@ -15,6 +15,8 @@ constexpr int kIterations = 15;
 constexpr int kRobustIterations = 2;  // with Huber's weights, before anything is cut
 constexpr double kHuber = 2.0;        // standard deviations
 constexpr double kCut = 4.5;          // standard deviations
+constexpr double kTrust =
+    16;  // the observations' own covariances count as much as so many residuals
 constexpr std::size_t kLeastObservations = 8;
 constexpr double kMedian = 1.1774;  // of the length of a two-dimensional normal vector
 
@@ -22,10 +24,37 @@ double seconds(int64_t from, int64_t to) {
   return static_cast<double>(to - from) * 1e-6;
 }
 
+using Information = Eigen::Matrix<double, 7, 7>;
+
+/// d centre / d what stays the same through a flight, of one camera: bias [px], small rotation of the camera [rad], its position
+/// [m], relative focal length.
+Eigen::Matrix<double, 2, 9> byConstants(const model::Camera& camera,
+                                        const Eigen::Vector3d& p_W,
+                                        const Eigen::Vector2d& centre,
+                                        const Eigen::Matrix<double, 2, 3>& projection) {
+  const Eigen::Vector3d p_C = camera.toCamera(p_W);
+  Eigen::Matrix3d cross;
+  cross << 0, -p_C.z(), p_C.y(), p_C.z(), 0, -p_C.x(), -p_C.y(), p_C.x(), 0;
+  Eigen::Matrix<double, 2, 9> derivative;
+  derivative << Eigen::Matrix2d::Identity(), projection * camera.R_CW.transpose() * cross,
+      projection, centre - Eigen::Vector2d(camera.cx, camera.cy);
+  return derivative;
+}
+
+/// Variances of the same.
+Eigen::Matrix<double, 9, 1> constantVariances(const FlightPrior& prior) {
+  Eigen::Matrix<double, 9, 1> sigma;
+  sigma << Eigen::Vector2d::Constant(prior.bias_sigma),
+      Eigen::Vector3d::Constant(prior.calibration.rotation),
+      Eigen::Vector3d::Constant(prior.calibration.position), prior.calibration.focal_length;
+  return sigma.cwiseAbs2();
+}
+
 /// One observation against the flight assumed.
 struct Residual {
   Eigen::Vector2d error;                 ///< [px]
   Eigen::Matrix<double, 2, 7> jacobian;  ///< of the predicted centre
+  Eigen::Matrix<double, 2, 9> constant;  ///< of the predicted centre by what is constant
   Eigen::Matrix2d weight;                ///< inverse covariance
   double distance = 0;                   ///< Mahalanobis
 };
@@ -38,7 +67,6 @@ class FlightProblem {
                 const FlightPrior& prior)
       : observations_(observations), first_(first), cameras_(cameras), prior_(prior) {
     residuals_.resize(observations.size() - first);
-    x_ = Eigen::VectorXd::Zero(7 + 2 * static_cast<Eigen::Index>(cameras.size()));
   }
 
   int64_t utime() const { return observations_[first_].utime; }
@@ -63,8 +91,9 @@ class FlightProblem {
       const Eigen::Vector2d centre =
           outlineCentre(camera, path.state().p_WBall, prior_.ball_radius, &projection);
       Residual& r = residuals_[i];
-      r.error = o.centre - centre - x_.segment<2>(7 + 2 * o.camera);
+      r.error = o.centre - centre;
       r.jacobian = projection * path.sensitivity().topRows<3>();
+      r.constant = byConstants(camera, path.state().p_WBall, centre, projection);
       r.weight = o.cov.inverse();
       r.distance = std::sqrt(r.error.dot(r.weight * r.error));
       distances.push_back(r.distance);
@@ -81,41 +110,27 @@ class FlightProblem {
     return std::min(1.0, kHuber * spread_ / std::max(r.distance, 1e-12));
   }
 
-  /// Solves for one step; returns the information matrix.
-  Eigen::MatrixXd step(bool cutting, Eigen::VectorXd* change) const {
-    const Eigen::Index n = x_.size();
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-    for (std::size_t i = 0; i < residuals_.size(); ++i) {
-      const Residual& r = residuals_[i];
+  /// Solves for one step.
+  Information step(bool cutting, Eigen::Matrix<double, 7, 1>* change) const {
+    Information information = Information::Zero();
+    Eigen::Matrix<double, 7, 1> gradient = Eigen::Matrix<double, 7, 1>::Zero();
+    for (const Residual& r : residuals_) {
       const double w = weight(r, cutting);
       if (w == 0)
         continue;
-      const Eigen::Index bias = 7 + 2 * observations_[first_ + i].camera;
-      const Eigen::Matrix2d weighted = w / prior_.alike * r.weight;
-      const Eigen::Matrix<double, 7, 2> half = r.jacobian.transpose() * weighted;
-      information.topLeftCorner<7, 7>() += half * r.jacobian;
-      information.block<7, 2>(0, bias) += half;
-      information.block<2, 7>(bias, 0) += half.transpose();
-      information.block<2, 2>(bias, bias) += weighted;
-      gradient.head<7>() += half * r.error;
-      gradient.segment<2>(bias) += weighted * r.error;
+      const Eigen::Matrix<double, 7, 2> half = w * r.jacobian.transpose() * r.weight;
+      information += half * r.jacobian;
+      gradient += half * r.error;
     }
-    const double drag_weight = 1 / (prior_.drag_sigma * prior_.drag_sigma);
-    information(6, 6) += drag_weight;
-    gradient[6] += drag_weight * (prior_.drag - x_[6]);
-    const double bias_weight = 1 / (prior_.bias_sigma * prior_.bias_sigma);
-    for (Eigen::Index i = 7; i < n; ++i) {
-      information(i, i) += bias_weight;
-      gradient[i] -= bias_weight * x_[i];
-    }
+    information(6, 6) += dragWeight();
+    gradient[6] += dragWeight() * (prior_.drag - x_[6]);
     *change = information.ldlt().solve(gradient);
     return information;
   }
 
-  void move(const Eigen::VectorXd& change) { x_ += change; }
+  void move(const Eigen::Matrix<double, 7, 1>& change) { x_ += change; }
 
-  FlightEstimate estimate(const Eigen::MatrixXd& information) const {
+  FlightEstimate estimate(Information information) const {
     FlightEstimate e;
     e.utime = utime();
     e.start = {x_.head<3>(), x_.segment<3>(3)};
@@ -128,24 +143,44 @@ class FlightProblem {
       squares += r.error.squaredNorm();
       normalised += r.distance * r.distance;
     }
-    const double freedom = std::max(1.0, 2.0 * e.used - 6);
     e.residual_px = std::sqrt(squares / std::max(1, 2 * e.used));
-    e.scale = std::max(1.0, std::sqrt(normalised / freedom));
-    const Eigen::MatrixXd cov =
-        information.ldlt().solve(Eigen::MatrixXd::Identity(x_.size(), x_.size()));
-    e.cov = e.scale * e.scale * cov.topLeftCorner<7, 7>();
+    const double freedom = std::max(1.0, 2.0 * e.used - 6);
+    e.scale = std::sqrt((kTrust + normalised) / (kTrust + freedom));
+    information(6, 6) -= dragWeight();
+    information /= e.scale * e.scale;
+    information(6, 6) += dragWeight();
+    const Information inverse = information.ldlt().solve(Information::Identity());
+    e.cov = inverse;
+    const Eigen::Matrix<double, 9, 1> variances = constantVariances(prior_);
+    for (const Eigen::Matrix<double, 7, 9>& sum : constantSums()) {
+      const Eigen::Matrix<double, 7, 9> gain = inverse * sum / (e.scale * e.scale);
+      e.cov += gain * variances.asDiagonal() * gain.transpose();
+    }
     return e;
   }
 
-  bool finite() const { return x_.allFinite(); }
-
  private:
+  double dragWeight() const { return 1 / (prior_.drag_sigma * prior_.drag_sigma); }
+
+  /// sum J^T W G of each camera.
+  std::vector<Eigen::Matrix<double, 7, 9>> constantSums() const {
+    std::vector<Eigen::Matrix<double, 7, 9>> sums(cameras_.size(),
+                                                  Eigen::Matrix<double, 7, 9>::Zero());
+    for (std::size_t i = 0; i < residuals_.size(); ++i) {
+      const Residual& r = residuals_[i];
+      if (weight(r, true) > 0)
+        sums[static_cast<std::size_t>(observations_[first_ + i].camera)] +=
+            r.jacobian.transpose() * r.weight * r.constant;
+    }
+    return sums;
+  }
+
   const std::vector<Observation>& observations_;
   std::size_t first_;
   const std::vector<model::Camera>& cameras_;
   const FlightPrior& prior_;
   std::vector<Residual> residuals_;
-  Eigen::VectorXd x_;
+  Eigen::Matrix<double, 7, 1> x_ = Eigen::Matrix<double, 7, 1>::Zero();
   double spread_ = 1;
 };
 
@@ -206,9 +241,9 @@ std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observat
   for (int i = 0; i < kIterations; ++i) {
     if (!problem.evaluate())
       return std::nullopt;
-    Eigen::VectorXd change;
+    Eigen::Matrix<double, 7, 1> change;
     const bool cutting = i >= kRobustIterations;
-    const Eigen::MatrixXd information = problem.step(cutting, &change);
+    const Information information = problem.step(cutting, &change);
     if (!change.allFinite())
       return std::nullopt;
     problem.move(change);
@@ -229,6 +264,9 @@ std::optional<FlightEstimate> fitFreeFlight(const std::vector<Observation>& obse
                                             int64_t guess_utime,
                                             std::size_t* begin) {
   constexpr std::size_t kLeastTimes = 10;
+  // Fewer bad times in a row among good ones are outliers, which the fit will cut; a hand that holds the ball leads it away
+  // from the flight for good.
+  constexpr std::size_t kBadTimes = 4;
   constexpr std::size_t kMargin = 2;  // times after the first that agrees: a finger may still touch
   const std::vector<std::size_t> times = timesOf(observations);
   const auto end_of = [&](std::size_t k) {
@@ -245,17 +283,17 @@ std::optional<FlightEstimate> fitFreeFlight(const std::vector<Observation>& obse
   bool ended = false;
   while (flight && first > 0 && !ended) {
     // Back by a third at most, then fit again: a fit to few predicts the past badly.
-    const std::size_t reach = std::max<std::size_t>(2, (times.size() - first) / 3);
-    std::size_t back = first;
-    while (back > 0 && first - back < reach && !ended) {
-      // One bad time among good ones is an outlier; the fit will cut it.
-      const bool good = agreed(back - 1, *flight) ||
-                        (back >= 3 && agreed(back - 2, *flight) && agreed(back - 3, *flight));
-      ended = !good;
-      if (good)
-        --back;
+    const std::size_t reach = std::max<std::size_t>(kBadTimes, (times.size() - first) / 3);
+    std::size_t back = first, bad = 0;
+    for (std::size_t k = first; k > 0 && first - back < reach && !ended; --k) {
+      if (agreed(k - 1, *flight)) {
+        back = k - 1;
+        bad = 0;
+      } else {
+        ended = ++bad == kBadTimes;
+      }
     }
-    if (back == first)
+    if (back == first && !ended)
       break;
     if (ended && times.size() - back > kLeastTimes + kMargin)
       back += kMargin;

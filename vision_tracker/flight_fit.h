@@ -19,6 +19,13 @@ struct Observation {
   Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();     ///< [px^2]
 };
 
+/// How well each camera's calibration is known: standard deviations per axis.
+struct CalibrationSigma {
+  double rotation = 0;      ///< [rad]
+  double position = 0;      ///< [m]
+  double focal_length = 0;  ///< relative
+};
+
 /// What is known of every flight before it is seen.
 struct FlightPrior {
   double gravity = 0;      ///< [m/s^2]
@@ -26,11 +33,9 @@ struct FlightPrior {
   double drag_sigma = 0;   ///< [1/m]
   double ball_radius = 0;  ///< [m]
   /// [px], standard deviation of an error of the centres that stays the same through a flight, per camera and axis: what
-  /// is left of the calibration's and the shading's. The estimate carries it as unknowns, so that its covariance is honest.
+  /// the shading leaves.
   double bias_sigma = 0;
-  /// Errors of so many images of a camera in a row are alike (the same shading before the same background), so that they
-  /// tell no more than one.
-  double alike = 1;
+  CalibrationSigma calibration = {};
 };
 
 /// A flight fitted to observations.
@@ -40,16 +45,19 @@ struct FlightEstimate {
   double drag = 0;                                                        ///< [1/m]
   Eigen::Matrix<double, 7, 7> cov = Eigen::Matrix<double, 7, 7>::Zero();  ///< of (p, v, k) at utime
   double residual_px = 0;  ///< [px], rms per axis of the observations used
-  double scale =
-      1;  ///< standard deviation of the residuals over that expected, at least 1; it is in `cov`
+  /// Standard deviation of the residuals over that which the observations' covariances say; it is in `cov`. A few residuals
+  /// hardly move it from 1.
+  double scale = 1;
   int used = 0;  ///< observations that were not cut away
 
   model::BallState at(int64_t time, double gravity) const;
 };
 
-/// Robust maximum likelihood: Gauss-Newton on the pixels of all cameras over start, drag and the cameras' biases; Huber's weights
-/// at first, then observations too far off are cut (the limit grows with the median residual, so that a bad start
-/// does not cut everything).
+/// Robust maximum likelihood: Gauss-Newton on the pixels of all cameras over start and drag; Huber's weights at first, then
+/// observations too far off are cut (the limit grows with the median residual, so that a bad start does not cut everything).
+/// Errors that stay the same through a flight (biases, calibration) are not estimated, for the images of one flight hardly
+/// show them, but carried into the covariance: cov = F^-1 + K S K^T with K = F^-1 sum J^T W G, where G is the derivative of
+/// the centres by those errors and S their covariance ("consider parameters", Schmidt 1966).
 /// @param observations in order of time; @param first use those from this index on
 /// @param guess start, at guess_utime; drag begins at the prior
 /// @return nothing if it does not converge, or less than eight observations are left.

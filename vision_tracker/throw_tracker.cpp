@@ -14,9 +14,10 @@ namespace {
 constexpr int64_t kSameMoment = 500;  // [us], cameras' images nearer than this belong together
 constexpr int kImagesToLearn = 4;     // of each camera, before foreground means anything
 constexpr double kClear = 1.2;  // ball radii before the target plane; nearer it may touch the ring
-constexpr int kSureTrack = 40;  // observations that no arm imitates
-constexpr int kLeastForLanding = 16;  // observations
-constexpr int kMostMisses = 15;       // times
+constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the limb
+constexpr int kSureTrack = 40;           // observations that no arm imitates
+constexpr int kLeastForLanding = 16;     // observations
+constexpr int kMostMisses = 15;          // times
 
 bool same(const CameraSetup& a, const CameraSetup& b) {
   return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
@@ -129,8 +130,8 @@ void ThrowTracker::observe(int64_t utime,
                            const Eigen::Vector3d& p_WBall) {
   // An outline of a wrong size is wrong somewhere by as much: a finger or the ring covers a part of it.
   const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
-  const double off =
-      fit.radius - sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
+  const double radius = sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
+  const double off = std::max(0.0, std::abs(fit.radius - radius) - kSizeTolerance * radius);
   observations_.push_back(
       {utime, camera, fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity()});
 }
