@@ -7,14 +7,15 @@
 #include "bench/row.h"
 #include "bench/run_rows.h"
 #include "bench/scene_rows.h"
+#include "bench/vision_rows.h"
 
 namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some :
-       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), sceneBenchmarks(),
-        contactBenchmarks(), planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
+                           sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
+                           planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

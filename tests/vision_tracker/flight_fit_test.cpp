@@ -8,8 +8,9 @@
 #include <cmath>
 #include <random>
 
+#include "bench/synthetic_throw.h"
 #include "sim_bullet/camera_config.h"
-#include "tests/vision_tracker/synthetic_throw.h"
+#include "tests/vision_tracker/experiment_path.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
@@ -100,8 +101,8 @@ TEST_F(FlightFit, CovarianceIsWhatTheErrorsAre) {
       const Eigen::Vector2d error = estimate->landing - landing_.landing;
       sum += error.dot(estimate->cov.inverse() * error);
     }
-    // A mean of 150 chi-squares of two dimensions: 2 +- 0.16; the estimate's covariance carries the scatter of each fit.
-    EXPECT_NEAR(sum / kThrows, 2.0, 0.6) << "share seen " << seen;
+    // A mean of 150 chi-squares of two dimensions: 2 +- 0.16.
+    EXPECT_NEAR(sum / kThrows, 2.0, 0.5) << "share seen " << seen;
   }
 }
 

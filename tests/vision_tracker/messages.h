@@ -2,8 +2,9 @@
 
 #include <vector>
 
+#include "bench/synthetic_throw.h"
 #include "lcmtypes/fastball_types.h"
-#include "tests/vision_tracker/synthetic_throw.h"
+#include "tests/vision_tracker/experiment_path.h"
 
 namespace fastball::testing {
 

@@ -11,8 +11,8 @@
 namespace fastball::vision_tracker {
 namespace {
 
+using bench::SyntheticThrow;
 using sim_bullet::RenderedImage;
-using testing::SyntheticThrow;
 
 class TrackerNodeTest : public ::testing::Test {
  protected:
@@ -49,8 +49,8 @@ class TrackerNodeTest : public ::testing::Test {
                           testing::imageMessage(image));
   }
   std::vector<RenderedImage> drawn(int seed) {
-    synthetic_ = testing::makeThrow(experiment_, seed);
-    return testing::renderThrow(*rig_, experiment_, synthetic_, seed);
+    synthetic_ = bench::makeThrow(experiment_, seed);
+    return bench::renderThrow(*rig_, experiment_, synthetic_, seed);
   }
 
   config::Experiment experiment_ = config::loadExperiment(testing::experimentPath());

@@ -83,8 +83,8 @@ class TrackerProcess : public ::testing::Test {
 };
 
 TEST_F(TrackerProcess, MeasuresAThrowAndTheSameAgain) {
-  const testing::SyntheticThrow synthetic = testing::makeThrow(experiment_, 2);
-  const auto images = testing::renderThrow(rig_, experiment_, synthetic, 2);
+  const bench::SyntheticThrow synthetic = bench::makeThrow(experiment_, 2);
+  const auto images = bench::renderThrow(rig_, experiment_, synthetic, 2);
   std::vector<landing_t> results;
   for (int64_t id = 1; id <= 2; ++id) {
     ASSERT_TRUE(prepared(id));

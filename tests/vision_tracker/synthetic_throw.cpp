@@ -1,4 +1,4 @@
-#include "tests/vision_tracker/synthetic_throw.h"
+#include "bench/synthetic_throw.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -8,7 +8,7 @@
 #include "model/arm.h"
 #include "model/hand.h"
 
-namespace fastball::testing {
+namespace fastball::bench {
 namespace {
 
 constexpr double kSwing = 0.09;  // [s], how long the swing lasts before and after the release
@@ -31,32 +31,59 @@ Eigen::Vector3d velocityFor(const Eigen::Vector3d& p_WBall,
   return v_WBall;
 }
 
-}  // namespace
+/// Uniform numbers, the same on every machine.
+class Random {
+ public:
+  explicit Random(int seed) : generator_(static_cast<unsigned>(seed)) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
+  }
 
-std::string experimentPath() {
-  return std::string(FASTBALL_SOURCE_DIR) + "/config/experiment.yaml";
-}
+ private:
+  std::mt19937 generator_;
+};
 
-SyntheticThrow makeThrow(const config::Experiment& experiment, int seed, int64_t scene_utime) {
-  std::mt19937 generator(static_cast<unsigned>(seed));
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(generator()) / 4294967296.0;
-  };
+/// Release, drag and landing.
+SyntheticThrow drawFlight(const config::Experiment& experiment,
+                          Random& uniform,
+                          std::optional<double> drag,
+                          Eigen::Vector4d& q_release) {
   const model::Arm arm(experiment.arm);
-  const model::Hand hand(experiment.hand);
   const double gravity = experiment.arm.gravity;
   SyntheticThrow made;
   made.drag = experiment.ball.dragPerMetre() * uniform(0.8, 1.2);
-  const Eigen::Vector4d q_release(uniform(-0.4, 0.4), uniform(0.8, 1.1), uniform(-0.3, 0.3),
-                                  uniform(0.2, 0.5));
+  if (drag)
+    made.drag = *drag;
+  q_release =
+      Eigen::Vector4d(uniform(-0.4, 0.4), uniform(0.8, 1.1), uniform(-0.3, 0.3), uniform(0.2, 0.5));
   made.release.p_WBall = arm.p_WPoint(q_release, experiment.hand.p_HBall);
   const Eigen::Vector2d aim(uniform(-0.09, 0.09), uniform(-0.09, 0.09));
   made.release.v_WBall = velocityFor(made.release.p_WBall, aim, uniform(0.45, 0.6),
                                      experiment.target, made.drag, gravity);
+  made.landing = *model::land(made.release, experiment.target, made.drag, gravity);
+  return made;
+}
+
+}  // namespace
+
+SyntheticThrow makeFlight(const config::Experiment& experiment,
+                          int seed,
+                          std::optional<double> drag) {
+  Random uniform(seed);
+  Eigen::Vector4d q_release;
+  return drawFlight(experiment, uniform, drag, q_release);
+}
+
+SyntheticThrow makeThrow(const config::Experiment& experiment, int seed, int64_t scene_utime) {
+  Random uniform(seed);
+  const model::Arm arm(experiment.arm);
+  const model::Hand hand(experiment.hand);
+  Eigen::Vector4d q_release;
+  SyntheticThrow made = drawFlight(experiment, uniform, {}, q_release);
+  const double gravity = experiment.arm.gravity;
   const Eigen::Vector4d qd_release = arm.pointJacobian(q_release, experiment.hand.p_HBall)
                                          .completeOrthogonalDecomposition()
                                          .solve(made.release.v_WBall);
-  made.landing = *model::land(made.release, experiment.target, made.drag, gravity);
   made.start_utime = scene_utime;
   made.release_utime = scene_utime + 100000 + static_cast<int64_t>(uniform(0, 5000));
   made.landing_utime = made.release_utime + std::llround(made.landing.time * 1e6);
@@ -103,4 +130,4 @@ std::vector<sim_bullet::RenderedImage> renderThrow(sim_bullet::CameraRig& rig,
   return images;
 }
 
-}  // namespace fastball::testing
+}  // namespace fastball::bench

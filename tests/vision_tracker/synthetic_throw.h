@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "config/experiment.h"
@@ -8,10 +9,7 @@
 #include "sim_bullet/camera_rig.h"
 #include "sim_bullet/snapshot.h"
 
-namespace fastball::testing {
-
-/// The default experiment file of the source tree.
-std::string experimentPath();
+namespace fastball::bench {
 
 /// A throw made of formulas: the arm swings, the ball leaves the hand with the hand's own velocity and flies with drag.
 struct SyntheticThrow {
@@ -24,6 +22,11 @@ struct SyntheticThrow {
   std::vector<sim_bullet::SceneSnapshot> snapshots;  ///< every millisecond
 };
 
+/// The release, drag and landing of a throw alone. @param drag [1/m], instead of a drawn one
+SyntheticThrow makeFlight(const config::Experiment& experiment,
+                          int seed,
+                          std::optional<double> drag = {});
+
 /// Another throw for another seed: release point, flight time, landing point in the ring and drag are drawn from it.
 SyntheticThrow makeThrow(const config::Experiment& experiment,
                          int seed,
@@ -35,4 +38,4 @@ std::vector<sim_bullet::RenderedImage> renderThrow(sim_bullet::CameraRig& rig,
                                                    const SyntheticThrow& synthetic,
                                                    int64_t seed);
 
-}  // namespace fastball::testing
+}  // namespace fastball::bench

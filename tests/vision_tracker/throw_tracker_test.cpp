@@ -7,7 +7,8 @@
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/vision_tracker/synthetic_throw.h"
+#include "bench/synthetic_throw.h"
+#include "tests/vision_tracker/experiment_path.h"
 #include "vision_tracker/config.h"
 #include "vision_tracker/image_order.h"
 #include "vision_tracker/sphere_outline.h"
@@ -15,8 +16,8 @@
 namespace fastball::vision_tracker {
 namespace {
 
+using bench::SyntheticThrow;
 using sim_bullet::RenderedImage;
-using testing::SyntheticThrow;
 
 class TrackerOnImages : public ::testing::Test {
  protected:
@@ -34,7 +35,7 @@ class TrackerOnImages : public ::testing::Test {
   }
 
   std::vector<RenderedImage> drawn(const SyntheticThrow& synthetic, int64_t seed = 1) {
-    return testing::renderThrow(rig_, experiment_, synthetic, seed);
+    return bench::renderThrow(rig_, experiment_, synthetic, seed);
   }
 
   using Watch = std::function<void(const RenderedImage&, const Sighting&)>;
@@ -74,7 +75,7 @@ class TrackerOnImages : public ::testing::Test {
 };
 
 TEST_F(TrackerOnImages, FindsTheBallToATenthOfAPixel) {
-  const SyntheticThrow synthetic = testing::makeThrow(experiment_, 3);
+  const SyntheticThrow synthetic = bench::makeThrow(experiment_, 3);
   int expected = 0, found = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0;
@@ -110,7 +111,7 @@ TEST_P(TrackerOnManyThrows, LandsWithinThreeMillimetresAndSaysHowWell) {
   double normalised = 0;
   for (int i = 0; i < 5; ++i) {
     const int seed = 5 * GetParam() + i + 1;
-    const SyntheticThrow synthetic = testing::makeThrow(experiment_, seed);
+    const SyntheticThrow synthetic = bench::makeThrow(experiment_, seed);
     const LandingReport report = track(drawn(synthetic, seed));
     ASSERT_TRUE(report.measured) << report.message;
     const Eigen::Vector2d error = report.landing.landing - synthetic.landing.landing;
@@ -129,9 +130,9 @@ TEST_P(TrackerOnManyThrows, LandsWithinThreeMillimetresAndSaysHowWell) {
 INSTANTIATE_TEST_SUITE_P(TwentySeeds, TrackerOnManyThrows, ::testing::Range(0, 4));
 
 TEST_F(TrackerOnImages, SaysTheSameBitForBitAgain) {
-  const std::vector<RenderedImage> images = drawn(testing::makeThrow(experiment_, 2));
+  const std::vector<RenderedImage> images = drawn(bench::makeThrow(experiment_, 2));
   const LandingReport first = track(images);
-  track(drawn(testing::makeThrow(experiment_, 4)));
+  track(drawn(bench::makeThrow(experiment_, 4)));
   const LandingReport again = track(images);
   ASSERT_TRUE(first.measured);
   EXPECT_EQ(first.landing.landing, again.landing.landing);
@@ -140,7 +141,7 @@ TEST_F(TrackerOnImages, SaysTheSameBitForBitAgain) {
 }
 
 TEST_F(TrackerOnImages, BearsLostAndBrokenImages) {
-  const SyntheticThrow synthetic = testing::makeThrow(experiment_, 6);
+  const SyntheticThrow synthetic = bench::makeThrow(experiment_, 6);
   std::vector<RenderedImage> images;
   int i = 0;
   for (RenderedImage& image : drawn(synthetic)) {
@@ -157,7 +158,7 @@ TEST_F(TrackerOnImages, BearsLostAndBrokenImages) {
 }
 
 TEST_F(TrackerOnImages, BearsBallsThatFlashUpInOneCamera) {
-  const SyntheticThrow synthetic = testing::makeThrow(experiment_, 7);
+  const SyntheticThrow synthetic = bench::makeThrow(experiment_, 7);
   std::vector<RenderedImage> images = drawn(synthetic);
   for (std::size_t i = 30; i < images.size(); i += 7) {
     cv::Mat picture = cv::imdecode(images[i].jpeg, cv::IMREAD_GRAYSCALE);
@@ -175,7 +176,7 @@ TEST_F(TrackerOnImages, BearsBallsThatFlashUpInOneCamera) {
 }
 
 TEST_F(TrackerOnImages, SaysSoIfNothingFlies) {
-  SyntheticThrow still = testing::makeThrow(experiment_, 1);
+  SyntheticThrow still = bench::makeThrow(experiment_, 1);
   for (sim_bullet::SceneSnapshot& s : still.snapshots)
     s.p_WBall = {0, 0, -50};
   still.snapshots.resize(300);
@@ -187,7 +188,7 @@ TEST_F(TrackerOnImages, SaysSoIfNothingFlies) {
 }
 
 TEST_F(TrackerOnImages, SaysSoIfTheImagesEndBeforeTheLanding) {
-  SyntheticThrow synthetic = testing::makeThrow(experiment_, 1);
+  SyntheticThrow synthetic = bench::makeThrow(experiment_, 1);
   synthetic.end_utime = synthetic.release_utime + 300000;
   const LandingReport report = track(drawn(synthetic));
   EXPECT_FALSE(report.measured);
@@ -195,7 +196,7 @@ TEST_F(TrackerOnImages, SaysSoIfTheImagesEndBeforeTheLanding) {
 }
 
 TEST_F(TrackerOnImages, SaysSoIfTheBallIsStoppedOnItsWay) {
-  SyntheticThrow synthetic = testing::makeThrow(experiment_, 1);
+  SyntheticThrow synthetic = bench::makeThrow(experiment_, 1);
   Eigen::Vector3d stopped = Eigen::Vector3d::Zero();
   for (sim_bullet::SceneSnapshot& s : synthetic.snapshots) {
     const double after = static_cast<double>(s.utime - synthetic.release_utime) * 1e-6 - 0.25;
