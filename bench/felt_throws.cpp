@@ -79,8 +79,7 @@ hand_server::HandController FeltThrows::makeHand() const {
 
 FeltThrow FeltThrows::run(hand_server::HandController& hand,
                           const sim_bullet::Uncertainty& uncertainty,
-                          int64_t seed,
-                          const Watch& watch) const {
+                          int64_t seed) const {
   const int64_t scene_id = hand.scene() + 1;
   hand_server::HandPlan plan = plan_;
   plan.id = scene_id;
@@ -93,17 +92,24 @@ FeltThrow FeltThrows::run(hand_server::HandController& hand,
       sim_bullet::kTick * static_cast<double>(start_tick_) + plan.t_release_command;
   FeltThrow thrown;
   thrown.errors = scene.errors();
+  thrown.planned_departure = plan.t_release - plan.t_release_command;
   bool departed = false;
   const auto ticks = std::lround((t_command + kPatience) / sim_bullet::kTick);
   for (long k = 0; k < ticks && !(departed && thrown.felt_departure); ++k) {
     const sim_bullet::RobotState& robot = scene.state();
-    if (watch)
-      watch(robot, hand, (arm_.X_WT(robot.q.arm) * X_TH_).inverse() * scene.ball().p_WBall);
+    const Eigen::Vector3d p_HBall =
+        (arm_.X_WT(robot.q.arm) * X_TH_).inverse() * scene.ball().p_WBall;
+    if (1e-3 * static_cast<double>(k) < kHold)
+      thrown.lay = {robot.forces[model::kThumb].normal, p_HBall.head<2>(),
+                    thrown.errors.ball.youngs_modulus};
     const auto told = hand.answer(sampleOf(robot, scene_id, k)).value();
     while (const auto event = hand.takeEvent()) {
       if (event->kind == hand_server::ReleaseEvent::Kind::kDeparted)
         thrown.felt_departure =
             1e-6 * static_cast<double>(event->utime - kSceneUs * scene_id) - t_command;
+      thrown.felt_lay = event->grip;
+      thrown.predicted_departure =
+          1e-6 * static_cast<double>(event->predicted_utime - kSceneUs * scene_id) - t_command;
     }
     const double t = sim_bullet::kTick * static_cast<double>(k - start_tick_);
     if (feelsBall(robot, hand_config_.release.touch_force))

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,18 +19,17 @@ struct FeltThrow {
   sim_bullet::SceneErrors errors;        ///< what was drawn for it
   double departure = 0;                  ///< true: the last finger has left the ball
   std::optional<double> felt_departure;  ///< as RELEASE says it
-  double last_touch = 0;                 ///< of the last state that feels the ball
+  double planned_departure = 0;          ///< as the plan says
+  double predicted_departure = 0;  ///< as the hand says that has learned from the throws before
+  hand_server::GripEstimate lay;   ///< true, when the swing began
+  std::optional<hand_server::GripEstimate> felt_lay;
+  double last_touch = 0;  ///< of the last state that feels the ball
 };
 
 /// Throws of the default experiment from the grasp to the departure, with the hand server's fingers and the simulator's sensors.
 /// The arm waits where the swing begins and swings as soon as the ball is held, so that a throw is short.
 class FeltThrows {
  public:
-  /// Sees every state of the robot before it is answered, and the ball's true centre in H [m].
-  using Watch = std::function<void(const sim_bullet::RobotState& robot,
-                                   const hand_server::HandController& hand,
-                                   const Eigen::Vector3d& p_HBall)>;
-
   /// @param strategy of the planner; it decides how the hand lets go (hand_server.release_mode).
   /// @throw std::runtime_error if there is no plan.
   FeltThrows(const std::string& experiment_path, const std::string& strategy);
@@ -40,8 +38,7 @@ class FeltThrows {
   /// @throw std::runtime_error if the ball does not leave the hand.
   FeltThrow run(hand_server::HandController& hand,
                 const sim_bullet::Uncertainty& uncertainty,
-                int64_t seed,
-                const Watch& watch = {}) const;
+                int64_t seed) const;
   /// A hand that has not thrown yet.
   hand_server::HandController makeHand() const;
   const config::Experiment& experiment() const { return experiment_; }

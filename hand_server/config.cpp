@@ -19,6 +19,7 @@ HandServerConfig loadConfig(const std::string& path) {
   result.clear_delay = section.number("clear_delay", config::kPositive);
   result.force_noise = section.number("force_noise", {0, 1});
   result.force_delay = section.number("force_delay", {0, 0.02});
+  result.command_shift_max = section.number("command_shift_max", {0, 0.02});
   result.quiet_time = section.number("quiet_time", {0.002, 0.025});
   result.grip_share = section.number("grip_share", {0, 1});
   result.arm_bound = section.number("arm_bound", config::kPositive);

@@ -172,6 +172,8 @@ void HandController::beginThrow(const HandSample& sample) {
   X_TH_ = hand_.X_TH(run_->plan.q_wrist[0], run_->plan.q_wrist[1]);
   path_ = model::JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
   push_end_ = {};
+  grip_feeling_ = {};
+  grip_.reset();
   settling_ = GripSettling(run_->geometry, ball_, hand_.parameters(), config_.settle_constant);
 }
 
@@ -179,10 +181,22 @@ double HandController::planTime(int64_t utime) const {
   return static_cast<double>(utime - run_order_.start_utime) / 1e6;
 }
 
+model::ReleaseMode HandController::releaseMode() const {
+  return config_.release.modeFor(run_->plan.window);
+}
+
+/// [s], from the command to the departure, as the plan says.
+double HandController::plannedDelay() const {
+  return run_->plan.t_release - run_->plan.t_release_command;
+}
+
 bool HandController::mustRelease(int64_t utime) {
-  return config_.release_by == ReleaseBy::kPlanTime
-             ? utime >= run_order_.start_utime + microseconds(run_->plan.t_release_command)
-             : pushHasEnded(planTime(utime));
+  if (config_.release_by == ReleaseBy::kNormalForce)
+    return pushHasEnded(planTime(utime));
+  // In a window the moment does not matter.
+  const bool shifted = run_->plan.adapts && !config_.release.isWindow(run_->plan.window);
+  const double shift = shifted ? delay_.commandShift(releaseMode(), config_.command_shift_max) : 0;
+  return utime >= run_order_.start_utime + microseconds(run_->plan.t_release_command + shift);
 }
 
 /// Eq. (24) at time t [s] of the plan, near the planned release only.
@@ -205,14 +219,16 @@ bool HandController::pushHasEnded(double t) {
 void HandController::beginRelease(const HandSample& sample, ReleaseBy reason) {
   phase_ = Phase::kRelease;
   release_utime_ = sample.utime;
-  release_ = model::ReleaseMotion(hand_, settling_.settled(), config_.release,
-                                  config_.release.modeFor(run_->plan.window));
+  release_ = model::ReleaseMotion(hand_, settling_.settled(), config_.release, releaseMode());
+  predicted_utime_ = sample.utime + microseconds(plannedDelay() + delay_.correction(releaseMode()));
   commanded_ = {sample.utime,
                 run_->plan.id,
                 ReleaseEvent::Kind::kCommanded,
                 reason,
                 run_order_.start_utime + microseconds(run_->plan.t_release_command),
-                sample.force};
+                predicted_utime_,
+                sample.force,
+                grip_};
 }
 
 void HandController::settleGrip(const HandSample& sample) {
@@ -226,10 +242,16 @@ void HandController::settleGrip(const HandSample& sample) {
 
 /// Says once, when the swing begins, if the thumb does not feel the grip it should have.
 void HandController::checkGrip(const HandSample& sample) {
-  if (grip_checked_ || planTime(sample.utime) < run_->plan.t_swing) {
+  if (grip_checked_) {
+    return;
+  }
+  if (planTime(sample.utime) < run_->plan.t_swing) {
+    grip_feeling_.step(sample.q, sample.force,
+                       1e-6 * static_cast<double>(sample.utime - last_.utime));
     return;
   }
   grip_checked_ = true;
+  grip_ = grip_feeling_.estimate(hand_, ball_);
   if (sample.force[model::kThumb] < config_.grip_share * run_->plan.grip_force) {
     notice_ = fmt::format("the ball is not gripped: the thumb presses with {:.3g} N of {:.3g} N",
                           sample.force[model::kThumb], run_->plan.grip_force);
@@ -260,12 +282,7 @@ void HandController::watchBall(const HandSample& sample) {
     return;
   }
   if (const auto departure = ball_watch_.step(sample.utime, sample.force)) {
-    departed_ = {departure->utime,
-                 run_->plan.id,
-                 ReleaseEvent::Kind::kDeparted,
-                 config_.release_by,
-                 run_order_.start_utime + microseconds(run_->plan.t_release),
-                 departure->force};
+    sayDeparture(*departure);
   }
   if (const auto finger = ball_watch_.touchedAgain(sample.force)) {
     constexpr std::array<const char*, model::kFingers> kNames{"finger A", "the thumb", "finger B"};
@@ -274,6 +291,21 @@ void HandController::watchBall(const HandSample& sample) {
         1e3 * (1e-6 * static_cast<double>(sample.utime - ball_watch_.departure().utime) -
                config_.force_delay));
   }
+}
+
+void HandController::sayDeparture(const BallWatch::Departure& departure) {
+  if (phase_ >= Phase::kRelease) {
+    delay_.learn(releaseMode(), plannedDelay(),
+                 1e-6 * static_cast<double>(departure.utime - release_utime_));
+  }
+  departed_ = {departure.utime,
+               run_->plan.id,
+               ReleaseEvent::Kind::kDeparted,
+               config_.release_by,
+               run_order_.start_utime + microseconds(run_->plan.t_release),
+               phase_ >= Phase::kRelease ? predicted_utime_ : departure.utime,
+               departure.force,
+               grip_};
 }
 
 void HandController::advancePhase(const HandSample& sample) {

@@ -7,9 +7,11 @@
 
 #include "hand_server/ball_watch.h"
 #include "hand_server/config.h"
+#include "hand_server/grip_estimate.h"
 #include "hand_server/grip_settling.h"
 #include "hand_server/hand_plan.h"
 #include "hand_server/release_condition.h"
+#include "hand_server/release_delay.h"
 #include "hand_server/slip_watch.h"
 #include "model/arm.h"
 #include "model/hand.h"
@@ -54,7 +56,10 @@ struct ReleaseEvent {
   Kind kind = Kind::kCommanded;
   ReleaseBy reason = ReleaseBy::kPlanTime;
   int64_t planned_utime = 0;  ///< [us]
-  FingerForces force{};       ///< [N]
+  int64_t predicted_utime =
+      0;                 ///< [us], of the departure, by what the hand has learned of its delay
+  FingerForces force{};  ///< [N]
+  std::optional<GripEstimate> grip;  ///< how the ball lay in the hand before the swing
 };
 
 /// The three fingers through a throw (section 3.1): open; grasp at once in the scene of an ordered throw; hold; release, in the
@@ -114,6 +119,9 @@ class HandController {
   void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
+  model::ReleaseMode releaseMode() const;
+  double plannedDelay() const;
+  void sayDeparture(const BallWatch::Departure& departure);
   double pressure(model::Finger finger, const model::HandVector& q) const;
   double planTime(int64_t utime) const;
 
@@ -137,13 +145,16 @@ class HandController {
   Phase phase_ = Phase::kOpen;
   bool kept_ = false;
   bool grip_checked_ = false;
-  int64_t grasp_utime_ = 0, release_utime_ = 0;
+  int64_t grasp_utime_ = 0, release_utime_ = 0, predicted_utime_ = 0;
   model::JointPath path_;
   GripSettling settling_;
+  GripFeeling grip_feeling_;
+  std::optional<GripEstimate> grip_;  ///< before the swing
   model::ReleaseMotion release_;
   PushEnd push_end_;
   BallWatch ball_watch_;
   SlipWatch slip_watch_;
+  ReleaseDelay delay_;  ///< over all throws
   HandSample last_;
   HandAnswer answer_;  ///< to last_
   std::optional<ReleaseEvent> commanded_, departed_;

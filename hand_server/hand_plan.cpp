@@ -54,7 +54,7 @@ bool operator==(const HandPlan& a, const HandPlan& b) {
   }
   return a.t_swing == b.t_swing && a.t_release_command == b.t_release_command &&
          a.t_release == b.t_release && a.window == b.window && a.grip_force == b.grip_force &&
-         a.q_wrist == b.q_wrist;
+         a.q_wrist == b.q_wrist && a.adapts == b.adapts;
 }
 
 PlannedGrasp planGrasp(const HandPlan& plan,

@@ -21,6 +21,8 @@ struct HandPlan {
   double grip_force = 0;                              ///< [N], thumb normal force through the swing
   Eigen::Vector2d q_wrist = Eigen::Vector2d::Zero();  ///< [rad], roll and flexion through the swing
   model::SampledTrajectory arm;
+  bool adapts =
+      false;  ///< the command may come earlier or later by what the hand has learned of its delay
 };
 
 bool operator==(const HandPlan& a, const HandPlan& b);

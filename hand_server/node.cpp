@@ -26,7 +26,8 @@ HandPlan fromMessage(const swing_plan_t& message) {
           message.release_window[1] - message.release_window[0],
           message.grip_force,
           Eigen::Map<const Eigen::Vector2d>(message.q_wrist),
-          model::SampledTrajectory(message.dt, std::move(samples))};
+          model::SampledTrajectory(message.dt, std::move(samples)),
+          message.strategy == "tactile"};
 }
 
 class HandServerNode : public messaging::Node {
@@ -134,6 +135,12 @@ class HandServerNode : public messaging::Node {
     message.reason =
         event.reason == ReleaseBy::kPlanTime ? release_t::PLAN_TIME : release_t::NORMAL_FORCE;
     message.planned_utime = event.planned_utime;
+    message.predicted_utime = event.predicted_utime;
+    if (event.grip) {
+      message.grip_force = event.grip->grip_force;
+      std::copy_n(event.grip->p_HBall.data(), 2, message.p_HBall);
+      message.youngs_modulus = event.grip->youngs_modulus;
+    }
     std::copy_n(event.force.begin(), model::kFingers, message.f_normal);
     releases_.publish(message);
   }

@@ -6,7 +6,7 @@
 namespace fastball::launch {
 
 /// Strategies that a throw can be planned by.
-inline const std::vector<std::string> kStrategies = {"paper", "robust"};
+inline const std::vector<std::string> kStrategies = {"paper", "robust", "tactile"};
 
 /// Section `run` of the experiment file: how the experiment is conducted.
 struct RunConfig {

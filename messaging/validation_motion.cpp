@@ -172,7 +172,12 @@ std::optional<std::string> fault(const release_t& m) {
   check.enumeration("event", m.event, release_t::COMMANDED, release_t::DEPARTED);
   check.enumeration("reason", m.reason, release_t::PLAN_TIME, release_t::NORMAL_FORCE);
   check.notNegative("planned_utime", m.planned_utime);
-  return check.positiveOrZero("f_normal", m.f_normal).fault();
+  check.notNegative("predicted_utime", m.predicted_utime);
+  return check.positiveOrZero("f_normal", m.f_normal)
+      .positiveOrZero("grip_force", m.grip_force)
+      .finite("p_HBall", m.p_HBall)
+      .positiveOrZero("youngs_modulus", m.youngs_modulus)
+      .fault();
 }
 
 }  // namespace fastball::messaging

@@ -37,8 +37,9 @@ struct ReleaseSettings {
   double touch_force = 0.05;   ///< [N], less counts as no touch
 
   /// A window shorter than half the time of the relaxation is none.
+  bool isWindow(double window_length) const { return window_length >= relax_time / 2; }
   ReleaseMode modeFor(double window_length) const {
-    return window_length >= relax_time / 2 ? in_window : without_window;
+    return isWindow(window_length) ? in_window : without_window;
   }
   /// [s] after the command, about when a ball of the stiffness that the grasp was computed for leaves the hand.
   double delayOf(ReleaseMode mode) const;

@@ -16,11 +16,17 @@ namespace fastball::planner {
 
 /// What a plan is asked for.
 struct ThrowRequest {
-  std::string strategy;                             ///< "paper"
+  std::string strategy;                             ///< "paper", "robust" or "tactile"
   Eigen::Vector4d q_arm = Eigen::Vector4d::Zero();  ///< [rad], where the arm rests
   model::Target target;
   int64_t seed = 0;  ///< of the random starts
 };
+
+/// Whether throws of a strategy go through a release window where there is one: `robust`, and `tactile`, the same plan with a hand
+/// that learns.
+inline bool seeksWindow(const std::string& strategy) {
+  return strategy == "robust" || strategy == "tactile";
+}
 
 /// Sine of the least angle at which a ball may meet the plane of the ring, from its front.
 inline constexpr double kLeastSteepness = 0.35;

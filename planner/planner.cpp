@@ -46,7 +46,7 @@ Planner::Planner(const PlannerConfig& config,
 
 std::vector<ThrowKind> Planner::kindsFor(const std::string& strategy) const {
   // Out of reach of any window: the fastest throw of all.
-  if (strategy == "robust")
+  if (seeksWindow(strategy))
     return {ThrowKind::kWindow, ThrowKind::kFreeSwing, ThrowKind::kHeldSwing};
   std::vector<ThrowKind> kinds;
   for (const Shoulder shoulder : config_.shoulders)
@@ -145,7 +145,7 @@ PlanResult Planner::plan(const ThrowRequest& request) const {
 }
 
 PlanResult Planner::planAnew(const ThrowRequest& request) const {
-  if (request.strategy != "robust")
+  if (!seeksWindow(request.strategy))
     return swings_.plan(request, config_.shoulders);
   if (std::optional<Plan> plan = windows_.plan(request, false))
     return *std::move(plan);
@@ -260,7 +260,7 @@ std::string Planner::outOfReach(const ThrowRequest& request,
         place);
   }
   const Shoulder shoulder =
-      request.strategy == "robust" ? Shoulder::kFree : config_.shoulders.back();
+      seeksWindow(request.strategy) ? Shoulder::kFree : config_.shoulders.back();
   const SwingSolution fastest = swings_.fastest(request, shoulder);
   if (fastest.release_speed == 0)
     return "no throw at all is found inside the limits of the arm " + config_.arm.profile;

@@ -11,7 +11,7 @@
 namespace fastball::planner {
 namespace {
 
-constexpr const char* kStrategies = "paper, robust";
+constexpr const char* kStrategies = "paper, robust, tactile";
 constexpr double kUnit = 1e-3;  // of a unit vector's length
 
 std::optional<std::string> targetFault(const model::Target& target) {
@@ -112,7 +112,7 @@ std::optional<std::string> configFault(const PlannerConfig& config) {
 
 std::optional<std::string> requestFault(const ThrowRequest& request, const PlannerConfig& config) {
   const model::Target& target = request.target;
-  if (request.strategy != "paper" && request.strategy != "robust") {
+  if (request.strategy != "paper" && !seeksWindow(request.strategy)) {
     return fmt::format("the strategy '{}' is not known, known strategies: {}", request.strategy,
                        kStrategies);
   }

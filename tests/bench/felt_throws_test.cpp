@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace fastball::bench {
@@ -27,6 +28,35 @@ TEST(FeltThrows, ADepartureIsFeltWithinHalfAMillisecondWhenTheThumbOpensAbruptly
 
 TEST(FeltThrows, ADepartureIsFeltWithinHalfAMillisecondWhenTheFingersRetreat) {
   feelDepartures("robust", model::ReleaseMode::kSyncRetreat);
+}
+
+TEST(FeltThrows, TheHandLearnsItsFingersDeadTime) {
+  const FeltThrows throws(kExperimentFile, "paper");
+  sim_bullet::Uncertainty uncertainty = unknownBall();
+  uncertainty.opening_delay_sd = 0.004;
+  hand_server::HandController hand = throws.makeHand();
+  double planned = 0, predicted = 0;
+  for (int seed = 1; seed <= 25; ++seed) {
+    const FeltThrow thrown = throws.run(hand, uncertainty, seed);
+    if (seed <= 5)  // it has little to go by
+      continue;
+    planned += std::pow(thrown.planned_departure - thrown.departure, 2);
+    predicted += std::pow(thrown.predicted_departure - thrown.departure, 2);
+  }
+  EXPECT_LT(predicted, 0.5 * planned) << "[s^2]";
+}
+
+TEST(FeltThrows, TheFingersFeelHowTheBallLiesAndHowHardItIs) {
+  const FeltThrows throws(kExperimentFile, "robust");
+  hand_server::HandController hand = throws.makeHand();
+  for (int seed = 1; seed <= 40; ++seed) {
+    const FeltThrow thrown = throws.run(hand, unknownBall(), seed);
+    ASSERT_TRUE(thrown.felt_lay) << seed;
+    const hand_server::GripEstimate &felt = *thrown.felt_lay, &lay = thrown.lay;
+    EXPECT_NEAR(felt.grip_force, lay.grip_force, 0.02 * lay.grip_force) << seed;
+    EXPECT_LT((felt.p_HBall - lay.p_HBall).norm(), 0.05e-3) << "[m], seed " << seed;
+    EXPECT_NEAR(felt.youngs_modulus, lay.youngs_modulus, 0.02 * lay.youngs_modulus) << seed;
+  }
 }
 
 }  // namespace

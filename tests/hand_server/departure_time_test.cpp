@@ -7,6 +7,7 @@
 #include <random>
 
 #include "hand_server/ball_watch.h"
+#include "hand_server/release_delay.h"
 #include "model/contact.h"
 #include "tests/hand_server/scripted_hand.h"
 
@@ -92,6 +93,19 @@ TEST(BallWatch, ABallThatAFingerBarelyPressesHasNotLeft) {
   EXPECT_FALSE(feel(0)) << "said once";
   EXPECT_FALSE(watch.touchedAgain({0, 0.02, 0}));
   EXPECT_EQ(watch.touchedAgain({0, 0, 0.06}), model::kFingerB);
+}
+
+TEST(ReleaseDelay, IsLearnedForEachModeByItself) {
+  using model::ReleaseMode;
+  ReleaseDelay delay;
+  EXPECT_EQ(delay.correction(ReleaseMode::kAbrupt), 0);
+  for (int throws = 1; throws <= 20; ++throws) {
+    delay.learn(ReleaseMode::kAbrupt, 0.010, 0.013);
+    EXPECT_NEAR(delay.correction(ReleaseMode::kAbrupt), 0.003 * throws / (throws + 1), 1e-12);
+  }
+  EXPECT_EQ(delay.correction(ReleaseMode::kSyncRetreat), 0);
+  EXPECT_EQ(delay.commandShift(ReleaseMode::kAbrupt, 0.001), -0.001);
+  EXPECT_NEAR(delay.commandShift(ReleaseMode::kAbrupt, 0.01), -0.003 * 20 / 21, 1e-12);
 }
 
 }  // namespace

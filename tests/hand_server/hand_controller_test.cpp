@@ -162,6 +162,60 @@ TEST_F(HandThrow, InAReleaseWindowAllFingersRetreatAndOpen) {
   EXPECT_NEAR(answer.q[model::kProximalThumb], config_.release.thumb.open_angle, 1e-9);
 }
 
+/// Throws of plans that expect the ball to leave 10 ms after the command; it leaves some 5 ms later.
+class LearningHand : public HandThrow {
+ protected:
+  /// @return [us], when the command came, from the start of the plan.
+  int64_t throwLate(int64_t number, bool adapts, double window = 0) {
+    HandPlan plan = throwPlan(number, window);
+    plan.adapts = adapts;
+    scene_ = number;
+    tick_ = 0;
+    utime_ = kSceneUs * number;
+    force_ = {2, 4, 2};
+    events_.clear();
+    EXPECT_TRUE(controller_.offerPlan(plan));
+    EXPECT_TRUE(controller_.startThrow({number, number, utime_ + 600'000}));
+    while (events_.empty() && tick_ < 2000)
+      tick();
+    run(15);
+    force_ = {0, 0, 0};
+    run(20);
+    EXPECT_EQ(events_.size(), 2u);
+    return events_[0].utime - kSceneUs * number - 600'000;
+  }
+};
+
+TEST_F(LearningHand, PredictsTheDelayItHasFelt) {
+  int64_t off = 0;
+  for (int number = 1; number <= 10; ++number) {
+    throwLate(number, false);
+    EXPECT_EQ(events_[0].predicted_utime, events_[1].predicted_utime);
+    off = events_[1].utime - events_[1].predicted_utime;
+    EXPECT_TRUE(number > 1 || off > 3000) << off;
+  }
+  EXPECT_LT(std::abs(off), 700);
+}
+
+TEST_F(LearningHand, CommandsEarlierOnlyForAPlanThatAdaptsAndHasNoWindow) {
+  EXPECT_EQ(throwLate(1, true), 500'000);
+  const int64_t off = events_[1].utime - events_[1].planned_utime;
+  EXPECT_GT(off, 3000);
+  EXPECT_EQ(throwLate(2, false), 500'000);
+  const int64_t command = throwLate(3, true);
+  EXPECT_NEAR(static_cast<double>(command), 500e3 - 2.0 / 3.0 * static_cast<double>(off), 1e3);
+  EXPECT_LT(events_[1].utime, events_[1].planned_utime + 2 * off / 3);
+  EXPECT_EQ(throwLate(4, true, 0.04), 500'000) << "in a window the moment does not matter";
+}
+
+TEST_F(LearningHand, ShiftsNoCommandByMoreThanTheLimit) {
+  config_.command_shift_max = 0.001;
+  controller_ = HandController(testArm(), testHand(), experiment().ball, config_);
+  for (int number = 1; number <= 5; ++number)
+    throwLate(number, true);
+  EXPECT_EQ(throwLate(6, true), 499'000);
+}
+
 TEST_F(HandThrow, ABallThatIsTouchedAgainIsSaid) {
   arm();
   run(1105);

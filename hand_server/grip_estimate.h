@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "hand_server/ball_watch.h"
+#include "model/ball_parameters.h"
+#include "model/hand.h"
+
+namespace fastball::hand_server {
+
+/// How the ball lies in the hand, as the fingers feel it.
+struct GripEstimate {
+  double grip_force = 0;                              ///< [N], of the thumb
+  Eigen::Vector2d p_HBall = Eigen::Vector2d::Zero();  ///< [m], ball centre across the hand's z axis
+  double youngs_modulus = 0;                          ///< E [Pa]
+};
+
+/// Feels how the ball lies in the hand at rest. The joint angles say where the three fingers are, and Eq. (27) how deep a force
+/// presses a finger into the ball:
+///     y(F_i; E) = a + r_finger - |p - (axis of finger i)|,   i = finger A, thumb, finger B,
+/// three equations for E and the place p of the ball across the fingers; its radius a is known. Forces and angles are averaged
+/// over some 20 ms. No function allocates.
+class GripFeeling {
+ public:
+  /// Takes a state of the hand at rest, dt [s] after the one before.
+  void step(const model::HandVector& q, const FingerForces& force, double dt);
+  /// Nothing if a finger does not feel the ball or the equations have no sensible solution.
+  /// @param ball its radius counts; its E is where the search begins.
+  std::optional<GripEstimate> estimate(const model::Hand& hand,
+                                       const model::BallParameters& ball) const;
+
+ private:
+  bool begun_ = false;
+  model::HandVector q_ = model::HandVector::Zero();
+  FingerForces force_{};
+};
+
+}  // namespace fastball::hand_server
