@@ -41,7 +41,6 @@ class FeltThrows {
                 int64_t seed) const;
   /// A hand that has not thrown yet.
   hand_server::HandController makeHand() const;
-  const config::Experiment& experiment() const { return experiment_; }
   model::ReleaseMode releaseMode() const { return hand_config_.release.modeFor(plan_.window); }
 
  private:
