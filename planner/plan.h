@@ -22,8 +22,8 @@ struct ThrowRequest {
   int64_t seed = 0;  ///< of the random starts
 };
 
-/// Whether throws of a strategy go through a release window where there is one: `robust`, and `tactile`, the same plan with a hand
-/// that learns.
+/// Whether throws of a strategy go through a release window where there is one: `robust`, and `tactile`, the same plan with a
+/// hand that learns.
 inline bool seeksWindow(const std::string& strategy) {
   return strategy == "robust" || strategy == "tactile";
 }

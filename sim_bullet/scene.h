@@ -31,9 +31,9 @@ struct RobotState {
   Eigen::Vector4d tau_arm = Eigen::Vector4d::Zero();  ///< [N m], motors, mean over the tick before
   JointVectors q, qd;                                 ///< as they are
   model::HandVector tau_hand =
-      model::HandVector::Zero();                    ///< [N m], drives, mean over the tick before
-  FingertipForces forces;                           ///< mean over the tick before, as it is
-  FingertipForces felt;                             ///< as the fingertips' sensors read
+      model::HandVector::Zero();  ///< [N m], drives, mean over the tick before
+  FingertipForces forces;         ///< mean over the tick before, as it is
+  FingertipForces felt;           ///< as the fingertips' sensors read
 };
 
 /// What a scene begins with.
