@@ -28,8 +28,8 @@ struct ImageTrial {
   double normalised = 0;                                    ///< squared, by the stated covariance
   /// [m], error of the landing predicted 100 ms after the release; nothing if there was no prediction.
   std::optional<double> early_error;
-  std::vector<double> image_seconds;  ///< wall time of decoding and tracking, of each image
-  double landing_seconds = 0;         ///< the same of the image after which the landing was there
+  std::vector<double> image_seconds;  ///< processor time of decoding and tracking, of each image
+  double landing_seconds = 0;         ///< wall time of the image after which the landing was there
   double duration = 0;                ///< [s], of the images
 };
 

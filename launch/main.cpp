@@ -24,6 +24,8 @@ int fastballMain(int argc, char** argv) {
   fastball::launch::addRunCommand(app, exit_status);
   fastball::launch::addReplayCommand(app, exit_status);
   fastball::launch::addReportCommand(app, exit_status);
+  fastball::launch::addCalibrateCommand(app, exit_status);
+  fastball::launch::addTrackCommand(app, exit_status);
   fastball::launch::addAtlasCommand(app, exit_status);
   fastball::launch::addFiguresCommand(app, exit_status);
   fastball::launch::addBenchCommand(app, exit_status);

@@ -59,6 +59,18 @@ std::vector<Blob> blobsOf(const cv::Mat& mask, int stride, double least_area, do
   return blobs;
 }
 
+/// A thing whose grey values say nothing: a shadow or a pattern may hide a third of it.
+BallFit uneven(const Blob& blob) {
+  constexpr double kHidden = 0.2;  // of the radius, standard deviation
+  BallFit fit;
+  fit.centre = blob.centre;
+  fit.radius = std::sqrt(blob.area / kPi);
+  const double sigma = kHidden * fit.radius + 0.3 * kStride;
+  fit.cov = sigma * sigma * Eigen::Matrix2d::Identity();
+  fit.converged = true;
+  return fit;
+}
+
 double threshold(double noise) {
   return std::max(9.0, 5 * noise);
 }
@@ -122,6 +134,8 @@ std::vector<BallFit> BallDetector::search(const cv::Mat& image,
                                  (least + most) / 2, (most - least) / 2 + 1, noise);
     if (fit.converged && (fit.centre - blob.centre).norm() < 0.5 * radius + kStride)
       found.push_back(fit);
+    else if (options_.keep_uneven)
+      found.push_back(uneven(blob));
   }
   return found;
 }

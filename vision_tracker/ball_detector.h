@@ -16,6 +16,8 @@ struct DetectorOptions {
   double nearest = 0, farthest = 0;  ///< [m], the ball's depth before a camera
   double blur = 0;                   ///< [px], standard deviation of lens and pixel together
   double noise_floor = 0;            ///< [px], per axis, added to the fit's own covariance
+  /// search() also gives round things on which no matt ball fits (patterned, shiny, smeared), with the centre of their area.
+  bool keep_uneven = false;
 };
 
 /// Finds the ball in the images of one camera.

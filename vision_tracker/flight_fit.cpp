@@ -54,7 +54,6 @@ Eigen::Matrix<double, 9, 1> constantVariances(const FlightPrior& prior) {
 struct Residual {
   Eigen::Vector2d error;                 ///< [px]
   Eigen::Matrix<double, 2, 7> jacobian;  ///< of the predicted centre
-  Eigen::Matrix<double, 2, 9> constant;  ///< of the predicted centre by what is constant
   Eigen::Matrix2d weight;                ///< inverse covariance
   double distance = 0;                   ///< Mahalanobis
 };
@@ -93,7 +92,6 @@ class FlightProblem {
       Residual& r = residuals_[i];
       r.error = o.centre - centre;
       r.jacobian = projection * path.sensitivity().topRows<3>();
-      r.constant = byConstants(camera, path.state().p_WBall, centre, projection);
       r.weight = o.cov.inverse();
       r.distance = std::sqrt(r.error.dot(r.weight * r.error));
       distances.push_back(r.distance);
@@ -166,11 +164,20 @@ class FlightProblem {
   std::vector<Eigen::Matrix<double, 7, 9>> constantSums() const {
     std::vector<Eigen::Matrix<double, 7, 9>> sums(cameras_.size(),
                                                   Eigen::Matrix<double, 7, 9>::Zero());
+    FlightPath path({x_.head<3>(), x_.segment<3>(3)}, x_[6], prior_.gravity);
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Residual& r = residuals_[i];
-      if (weight(r, true) > 0)
-        sums[static_cast<std::size_t>(observations_[first_ + i].camera)] +=
-            r.jacobian.transpose() * r.weight * r.constant;
+      if (weight(r, true) == 0)
+        continue;
+      const Observation& o = observations_[first_ + i];
+      path.moveTo(seconds(utime(), o.utime));
+      const auto camera = static_cast<std::size_t>(o.camera);
+      const Eigen::Vector3d p_W = path.state().p_WBall;
+      Eigen::Matrix<double, 2, 3> projection;
+      const Eigen::Vector2d centre =
+          outlineCentre(cameras_[camera], p_W, prior_.ball_radius, &projection);
+      sums[camera] += r.jacobian.transpose() * r.weight *
+                      byConstants(cameras_[camera], p_W, centre, projection);
     }
     return sums;
   }

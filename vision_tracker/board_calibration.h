@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "model/camera.h"
+
+namespace fastball::vision_tracker {
+
+/// A ChArUco board: a chessboard with an ArUco marker in every white square.
+struct BoardShape {
+  int columns = 0, rows = 0;  ///< squares
+  double square = 0;          ///< [m], side of a square
+  double marker = 0;          ///< [m], side of a marker, less than `square`
+  std::string dictionary;     ///< of the markers, e.g. "5X5_250"
+};
+
+/// An image of the board.
+struct BoardImage {
+  std::string name;
+  cv::Mat grey;  ///< CV_8U
+};
+
+/// What one image gave.
+struct BoardView {
+  std::string name;
+  int corners = 0;
+  double rms = 0;  ///< [px], of its residuals; 0 if it was not used
+  bool used = false;
+  Eigen::Matrix3d R_CB =
+      Eigen::Matrix3d::Identity();                 ///< board (x right, y down, z into it) to camera
+  Eigen::Vector3d p_CB = Eigen::Vector3d::Zero();  ///< [m], the board's origin, its first corner
+};
+
+/// A camera calibrated.
+struct BoardCalibration {
+  model::Camera camera;     ///< in the frame of the camera itself
+  double rms = 0;           ///< [px]
+  double focal_sigma = 0;   ///< [px], standard deviation of fx by the residuals
+  double centre_sigma = 0;  ///< [px], of the principal point, the larger of both axes
+  std::vector<BoardView> views;
+  cv::Mat picture;  ///< CV_8UC3, residuals of all corners, 100 times as long
+};
+
+/// Intrinsics and distortion from images of a board.
+/// @throw std::invalid_argument if the board cannot be, the images differ in size, fewer than eight show at least eight corners, all
+///   show the board from nearly the same direction (then focal length and distance cannot be told apart), or the corners
+///   leave most of the image empty
+BoardCalibration calibrateFromBoard(const std::vector<BoardImage>& images, const BoardShape& shape);
+
+/// The board as an image, `pixels` for each square, to print or to test with.
+cv::Mat drawBoard(const BoardShape& shape, int pixels);
+
+}  // namespace fastball::vision_tracker
