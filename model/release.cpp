@@ -20,7 +20,8 @@ constexpr double kSettleDrag = 500;       // [1/s], slows the ball in the hand w
 constexpr double kQuietTime = 3e-3;       // [s] without touch after which the ball has left
 constexpr double kTouchForce = 1e-6;      // [N], less is rounding error, not touch
 constexpr double kTick = 1e-3;            // [s], the hand is commanded once a tick
-constexpr double kWatchStep = 5e-4;       // [s], while nothing is touched: the fingers' drives need no finer one
+constexpr double kWatchStep =
+    5e-4;  // [s], while nothing is touched: the fingers' drives need no finer one
 
 constexpr int kPalm = kFingers;  // index of the palm among the things that can touch the ball
 constexpr int kBodies = kFingers + 1;
