@@ -8,6 +8,7 @@
 #include "config/experiment.h"
 #include "planner/config.h"
 #include "planner/starts.h"
+#include "planner/swing_planner.h"
 
 namespace fastball::bench {
 namespace {
@@ -30,15 +31,7 @@ struct DefaultSwing {
   model::Hand hand{config.hand};
 
   SwingTask task(Shoulder shoulder) const {
-    SwingTask task;
-    task.arm = &arm;
-    task.hand = &hand;
-    task.ball = config.ball;
-    task.target = experiment.target;
-    task.settings = config.swing;
-    task.settings.shoulder = shoulder;
-    task.limit_factor = config.limit_share;
-    return task;
+    return planner::swingTask(config, arm, hand, experiment.target, shoulder);
   }
 };
 

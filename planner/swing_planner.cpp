@@ -54,16 +54,24 @@ SwingPlanner::SwingPlanner(const PlannerConfig& config,
                            const ReleasePredictor& predictor)
     : config_(config), arm_(arm), predictor_(predictor), hand_(config.hand) {}
 
-SwingTask SwingPlanner::taskFor(const ThrowRequest& request, Shoulder shoulder) const {
+SwingTask swingTask(const PlannerConfig& config,
+                    const model::Arm& arm,
+                    const model::Hand& hand,
+                    const model::Target& target,
+                    Shoulder shoulder) {
   SwingTask task;
-  task.arm = &arm_;
-  task.hand = &hand_;
-  task.ball = config_.ball;
-  task.target = request.target;
-  task.settings = config_.swing;
+  task.arm = &arm;
+  task.hand = &hand;
+  task.ball = config.ball;
+  task.target = target;
+  task.settings = config.swing;
   task.settings.shoulder = shoulder;
-  task.limit_factor = config_.limit_share;
+  task.limit_factor = config.limit_share;
   return task;
+}
+
+SwingTask SwingPlanner::taskFor(const ThrowRequest& request, Shoulder shoulder) const {
+  return swingTask(config_, arm_, hand_, request.target, shoulder);
 }
 
 WholeMotion SwingPlanner::motionOf(const SwingSolution& solution,

@@ -13,6 +13,13 @@
 
 namespace fastball::planner {
 
+/// The swing to `target` as the configuration asks for it; `arm` and `hand` must outlive it.
+SwingTask swingTask(const PlannerConfig& config,
+                    const model::Arm& arm,
+                    const model::Hand& hand,
+                    const model::Target& target,
+                    Shoulder shoulder);
+
 /// Plans throws by the kinetic chain: the base functions of Eq. (12) in the analogous swing model (section 2.6) on the WAM,
 /// their parameters by Eq. (15), release by Eqs. (24) and (25).
 class SwingPlanner {

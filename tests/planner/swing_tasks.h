@@ -3,6 +3,7 @@
 #include <random>
 
 #include "planner/starts.h"
+#include "planner/swing_planner.h"
 #include "planner/swing_problem.h"
 #include "tests/planner/default_throw.h"
 
@@ -14,15 +15,7 @@ struct DefaultSwing : DefaultThrow {
   model::Hand hand{config.hand};
 
   SwingTask task(Shoulder shoulder = Shoulder::kHeld) const {
-    SwingTask task;
-    task.arm = &arm;
-    task.hand = &hand;
-    task.ball = config.ball;
-    task.target = experiment.target;
-    task.settings = config.swing;
-    task.settings.shoulder = shoulder;
-    task.limit_factor = config.limit_share;
-    return task;
+    return swingTask(config, arm, hand, experiment.target, shoulder);
   }
 };
 
