@@ -230,6 +230,19 @@ std::string Section::text(const std::string& key) {
   return node.Scalar();
 }
 
+std::vector<std::string> Section::texts(const std::string& key) {
+  const YAML::Node node = impl_->value(key);
+  if (!node.IsSequence())
+    throw impl_->fault(node, key, "must be a list of words, not " + kind(node));
+  std::vector<std::string> words;
+  for (const YAML::Node& item : node) {
+    if (!item.IsScalar())
+      throw impl_->fault(item, key, "must be a list of words, and has " + kind(item));
+    words.push_back(item.Scalar());
+  }
+  return words;
+}
+
 std::string Section::choice(const std::string& key, const std::vector<std::string>& allowed) {
   std::string word = text(key);
   for (const std::string& candidate : allowed) {

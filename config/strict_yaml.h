@@ -38,6 +38,8 @@ class Section {
   int integer(const std::string& key, int low, int high);
   bool boolean(const std::string& key);
   std::string text(const std::string& key);
+  /// A list of words.
+  std::vector<std::string> texts(const std::string& key);
   /// One of `allowed`.
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
   /// `size` numbers; size -1: any number of them.

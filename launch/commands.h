@@ -18,5 +18,7 @@ void addFiguresCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);
 void addCalibrateCommand(CLI::App& app, int& exit_status);
 void addTrackCommand(CLI::App& app, int& exit_status);
+/// up, down, ps, hold
+void addSystemCommands(CLI::App& app, int& exit_status);
 
 }  // namespace fastball::launch

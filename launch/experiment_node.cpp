@@ -37,13 +37,13 @@ ExperimentNode::ExperimentNode(messaging::Endpoint& endpoint,
   endpoint_.subscribe<controller_status_t>(messaging::kControllerStatus,
                                            [this](const auto& m) { hear(m); });
   endpoint_.subscribe<ball_observation_t>(messaging::kBallObservation, [this](const auto& m) {
-    if (m.request_id == number_)
+    if (m.request_id == id())
       heardProgress();
   });
 }
 
 void ExperimentNode::hear(const swing_plan_t& plan) {
-  if (phase_ == Phase::kPlanning && plan.plan_id == number_ && !plan_)
+  if (phase_ == Phase::kPlanning && plan.plan_id == id() && !plan_)
     take(plan);
 }
 
@@ -61,12 +61,12 @@ void ExperimentNode::take(const swing_plan_t& plan) {
 }
 
 void ExperimentNode::hear(const landing_t& landing) {
-  if (landing.request_id == number_ && !landing_)
+  if (landing.request_id == id() && !landing_)
     landing_ = landing;
 }
 
 void ExperimentNode::hear(const controller_status_t& status) {
-  if (status.scene_id != number_)
+  if (status.scene_id != id())
     return;
   if (status.utime != status_.utime)
     heardProgress();
@@ -108,7 +108,7 @@ bool ExperimentNode::anyFailed() {
       fail(fmt::format("{} failed: {}", process, heartbeat->detail));
       return true;
     }
-    if (roster_.holds(process, number_, "refused")) {
+    if (roster_.holds(process, id(), "refused")) {
       fail(fmt::format("throw {}: {} refused: {}", number_, process, heartbeat->detail));
       return true;
     }
@@ -150,12 +150,12 @@ bool ExperimentNode::planAnswered() {
 }
 
 bool ExperimentNode::sceneStarted() const {
-  return status_.scene_id == number_ || roster_.holds("sim_bullet", number_, "running") ||
+  return status_.scene_id == id() || roster_.holds("sim_bullet", id(), "running") ||
          sceneFinished();
 }
 
 bool ExperimentNode::sceneFinished() const {
-  return roster_.holds("sim_bullet", number_, "finished");
+  return roster_.holds("sim_bullet", id(), "finished");
 }
 
 void ExperimentNode::enter(Phase phase) {
@@ -192,6 +192,7 @@ void ExperimentNode::finishThrow() {
   const Eigen::Map<const Eigen::Vector3d> v_WBall(plan_->v_WBall_release);
   Throw seen;
   seen.number = number_;
+  seen.scene_id = id();
   seen.plan_ms = plan_->plan_ms;
   seen.planned_speed = v_WBall.norm();
   seen.duration = scene_.duration;

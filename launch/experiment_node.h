@@ -40,6 +40,9 @@ class ExperimentNode : public messaging::Node {
   Phase phase() const { return phase_; }
   /// Why the run failed, or empty.
   const std::string& error() const { return error_; }
+  /// What a process that stays from run to run has made before; call before the first step().
+  void continueAfter(int64_t throws_before) { settings_.throws_before = throws_before; }
+  int64_t throwsBefore() const { return settings_.throws_before; }
   /// Throws that are over.
   const std::vector<Throw>& throws() const { return throws_; }
   /// Wall time [s] that each of them took.
@@ -85,6 +88,8 @@ class ExperimentNode : public messaging::Node {
 
   Phase phase_ = Phase::kPlanning;
   int number_ = 1;  ///< of the throw
+  /// The same in messages.
+  int64_t id() const { return messageNumber(settings_, number_); }
   std::optional<swing_plan_t> plan_;
   scene_t scene_{};  ///< for plan_
   std::optional<landing_t> landing_;

@@ -53,7 +53,7 @@ std::string ExperimentNode::missing(const std::vector<std::string>& names,
                                     const std::string& state) const {
   std::string list;
   for (const std::string& process : names) {
-    if (roster_.holds(process, number_, state))
+    if (roster_.holds(process, id(), state))
       continue;
     const heartbeat_t* heartbeat = roster_.newest(process);
     if (!list.empty())
@@ -95,7 +95,7 @@ std::string ExperimentNode::waitingFor() const {
 }
 
 messaging::NodeState ExperimentNode::state() const {
-  return {phaseName(phase_), error_, number_};
+  return {phaseName(phase_), error_, id()};
 }
 
 std::string ExperimentNode::progress() const {

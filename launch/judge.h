@@ -16,7 +16,7 @@ struct Truth {
   std::optional<Eigen::Vector2d>
       landing;            ///< [m], target plane (right, up); none: never crossed it
   std::string touched;    ///< what touched the ball after its release, or empty
-  bool finished = false;  ///< the scene is over, nothing more will come
+  bool finished = false;  ///< the scene is over and every event of it was heard
 };
 
 /// Judges the throws by SIM_TRUTH. The only listener of that channel besides the logger: it hands
@@ -28,11 +28,11 @@ class Judge {
   Judge& operator=(const Judge&) = delete;
 
   /// The truth of a scene so far; empty for a scene never heard of.
-  const Truth& of(int64_t scene_id) { return truths_[scene_id]; }
+  Truth of(int64_t scene_id) const;
 
  private:
-  void hear(const sim_truth_t& message);
-  std::map<int64_t, Truth> truths_;
+  /// By scene and event_index: each is said several times, and any may be lost.
+  std::map<int64_t, std::map<int32_t, sim_truth_t>> events_;
 };
 
 }  // namespace fastball::launch

@@ -28,6 +28,7 @@ constexpr int64_t kWatchIntervalUs = 20000;
 constexpr auto kEstopTime = std::chrono::milliseconds(100);
 constexpr double kInterruptedGrace = 0.9;  // [s], twice: an interrupted run is over within 2 s
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
+constexpr double kHeartbeatPeriod = 1.1;  // [s]
 constexpr const char* kLogger = "logger";
 
 /// As HEARTBEAT names this machine.
@@ -82,6 +83,8 @@ class NetworkRun {
 
   void listenForOthers();
   void startProcesses();
+  /// Finds the processes of a system.
+  void joinSystem();
   void conduct();
   void stopProcesses();
 
@@ -91,6 +94,7 @@ class NetworkRun {
  private:
   void pump(bool act);
   void pumpFor(double seconds, bool act);
+  void awaitProcesses(const std::vector<std::string>& names);
   void watch();
   bool isOurs(const heartbeat_t& heartbeat) const;
   void refuseStrangers() const;
@@ -150,7 +154,9 @@ bool NetworkRun::isOurs(const heartbeat_t& heartbeat) const {
 }
 
 void NetworkRun::refuseStrangers() const {
-  const auto names = processes_.names();
+  // On a system only one experiment at a time is a stranger to another.
+  const auto names =
+      setup_.on_system ? std::vector<std::string>{experiment_.name()} : processes_.names();
   for (const heartbeat_t& heartbeat : roster_.everyone()) {
     // Once this run is on, a second `fastball run` that is about to refuse is no harm.
     if (!names.empty() && std::find(names.begin(), names.end(), heartbeat.name) == names.end())
@@ -172,9 +178,25 @@ void NetworkRun::listenForOthers() {
 void NetworkRun::startProcesses() {
   for (const ProcessCommand& command : commands(setup_))
     processes_.start(command);
+  awaitProcesses(processes_.names());
+}
+
+void NetworkRun::joinSystem() {
+  std::vector<std::string> names;
+  for (const ProcessCommand& command : commands(setup_))
+    names.push_back(command.name);
+  awaitProcesses(names);
+  pumpFor(kHeartbeatPeriod, false);  // everyone's newest
+  int64_t before = 0;
+  for (const ProcessCommand& command : commands(setup_))
+    before = std::max(before, roster_.newest(command.name)->plan_id);
+  experiment_.continueAfter(before);
+}
+
+void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {
   const double timeout = setup_.settings.config.start_timeout;
   const int64_t end = clock_.monotonicUs() + std::llround(timeout * kMicro);
-  for (const std::string& name : processes_.names()) {
+  for (const std::string& name : names) {
     while (roster_.newest(name) == nullptr) {
       progress_.status("waiting for " + name, clock_.monotonicUs());
       pump(false);
@@ -235,8 +257,12 @@ void NetworkRun::stopProcesses() {
 void runOverNetwork(const RunSetup& setup, Progress& progress, RunResult& result) {
   NetworkRun run(setup, progress);
   try {
-    run.listenForOthers();
-    run.startProcesses();
+    if (setup.on_system) {
+      run.joinSystem();
+    } else {
+      run.listenForOthers();
+      run.startProcesses();
+    }
     run.conduct();
     result.error = run.experiment().error();
   } catch (const std::exception& e) {

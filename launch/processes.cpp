@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,7 +20,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include <linux/close_range.h>
+#include "launch/child_setup.h"
 
 namespace fastball::launch {
 namespace {
@@ -36,19 +35,6 @@ constexpr auto kPollInterval = std::chrono::milliseconds(5);
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-
-/// Runs in the child between fork and exec: only system calls here.
-void prepareChild(pid_t parent) {
-  // Ask to be ended when the launcher is: it may be killed in a way that lets it do nothing.
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent)
-    _exit(1);
-  // The child must not hold this program's sockets open.
-  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-}
 
 }  // namespace
 
@@ -85,7 +71,7 @@ void Processes::start(const ProcessCommand& command) {
   if (!process->output)
     throw std::runtime_error("cannot make a file for a process's output");
   const pid_t self = getpid();
-  const auto prepare = [self](auto& /*executor*/) { prepareChild(self); };
+  const auto prepare = [self](auto& /*executor*/) { prepareChild(self, SIGTERM); };
   try {
     process->child =
         bp::child(bp::exe = command.program, bp::args = command.arguments, process->group,

@@ -12,7 +12,8 @@ namespace fastball::launch {
 
 /// One throw as the experiment itself saw it, without the truth.
 struct Throw {
-  int number = 0;                                           ///< 1, 2, ...: plan_id and scene_id
+  int number = 0;                                           ///< 1, 2, ... in this run
+  int64_t scene_id = 0;                                     ///< in messages, also the plan's
   double plan_ms = 0;                                       ///< [ms], wall time of the planner
   double planned_speed = 0;                                 ///< [m/s], of the ball when it leaves
   double duration = 0;                                      ///< [s], simulated, of the scene

@@ -26,7 +26,10 @@ void announce(const RunSetup& setup, Progress& progress) {
       "fastball {}: {} throw{}, strategy {}, seed {}, arm {}{}", messaging::version(),
       setup.settings.throws, setup.settings.throws == 1 ? "" : "s", setup.settings.strategy,
       setup.settings.seed, setup.arm, setup.options.realtime ? ", in real time" : ""));
-  progress.line(setup.log.empty() ? "one process, no network, no log" : "log " + setup.log);
+  if (setup.on_system)
+    progress.line("by the processes on " + setup.options.lcm_url);
+  else
+    progress.line(setup.log.empty() ? "one process, no network, no log" : "log " + setup.log);
 }
 
 int conduct(const RunOptions& options, RunResult& result) {
@@ -112,6 +115,14 @@ void addRunCommand(CLI::App& app, int& exit_status) {
                                             "Pace by the clock instead of in lockstep");
   CLI::Option* url = command->add_option("--lcm-url", options->lcm_url, "Where the processes meet")
                          ->capture_default_str();
+  CLI::Option* uncertainty = command->get_option("--uncertainty");
+  command
+      ->add_option("--system", options->system,
+                   "Throw with the processes that 'fastball up FILE' has started")
+      ->excludes(log)
+      ->excludes(realtime)
+      ->excludes(uncertainty)
+      ->excludes(url);
   command
       ->add_flag("--no-network", options->no_network,
                  "The same parts in one process: no LCM, no log, the same throws")

@@ -11,6 +11,7 @@
 #include "config/experiment.h"
 #include "controller/config.h"
 #include "hand_server/config.h"
+#include "launch/systems/system_file.h"
 #include "planner/config.h"
 #include "sim_bullet/node.h"
 #include "vision_tracker/config.h"
@@ -60,7 +61,8 @@ void requireWritable(const std::string& flag, const std::string& path) {
 RunSetup prepareRun(const RunOptions& options) {
   RunSetup setup;
   setup.options.config = absolutePath(config::experimentPath(options.config));
-  setup.options.lcm_url = options.lcm_url;
+  setup.on_system = !options.system.empty();
+  setup.options.lcm_url = setup.on_system ? loadSystem(options.system).lcm_url : options.lcm_url;
   setup.options.realtime = options.realtime;
   setup.command_line = options.command_line;
   setup.options.uncertainty = absolutePath(options.uncertainty);
@@ -80,7 +82,7 @@ RunSetup prepareRun(const RunOptions& options) {
 
   if (!options.json.empty())
     requireWritable("--json", options.json);
-  if (!options.no_network) {
+  if (!options.no_network && !setup.on_system) {
     setup.log = options.log.empty() ? defaultLogPath(options.seed) : options.log;
     if (options.log.empty())
       fs::create_directories("runs");

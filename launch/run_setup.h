@@ -19,6 +19,8 @@ struct RunOptions {
   std::string json;         ///< empty: none
   bool realtime = false;
   bool no_network = false;
+  std::string
+      system;  ///< file of the system whose processes make the throws; empty: processes of its own
   std::string lcm_url;
   std::string command_line;  ///< as typed, for the log's record
 };
@@ -30,6 +32,7 @@ struct RunSetup {
   std::string arm;                    ///< profile of the arm
   std::string log;                    ///< path of the log, empty: none
   std::string command_line;           ///< for the record beside the log
+  bool on_system = false;             ///< the processes are there already
 };
 
 /// Reads the experiment file with every process's section and checks all that can be checked before anything is started.

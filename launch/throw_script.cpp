@@ -28,13 +28,18 @@ int64_t throwSeed(int64_t seed, int throw_number) {
   return static_cast<int64_t>(std::mt19937_64(sequence)() >> 1);
 }
 
+int64_t messageNumber(const RunSettings& settings, int throw_number) {
+  return settings.throws_before + throw_number;
+}
+
 int64_t sceneUtime(const RunSettings& settings, int throw_number) {
-  return throw_number * std::llround(settings.config.scene_period * kMicro);
+  return messageNumber(settings, throw_number) *
+         std::llround(settings.config.scene_period * kMicro);
 }
 
 plan_request_t planRequest(const RunSettings& settings, int throw_number) {
   plan_request_t request{};
-  request.request_id = throw_number;
+  request.request_id = messageNumber(settings, throw_number);
   request.seed = throwSeed(settings.seed, throw_number);
   request.strategy = settings.strategy;
   Eigen::Map<Eigen::Vector4d>(request.q_arm) = settings.q_rest;
@@ -44,8 +49,8 @@ plan_request_t planRequest(const RunSettings& settings, int throw_number) {
 
 throw_start_t throwStart(const RunSettings& settings, int throw_number) {
   throw_start_t start{};
-  start.plan_id = throw_number;
-  start.scene_id = throw_number;
+  start.plan_id = messageNumber(settings, throw_number);
+  start.scene_id = messageNumber(settings, throw_number);
   start.start_utime =
       sceneUtime(settings, throw_number) + std::llround(settings.config.settle * kMicro);
   return start;
@@ -57,7 +62,7 @@ scene_t scene(const RunSettings& settings, int throw_number, const swing_plan_t&
   const double t_landing = plan.t_release + plan.flight_time;
   scene_t scene{};
   scene.utime = sceneUtime(settings, throw_number);
-  scene.scene_id = throw_number;
+  scene.scene_id = messageNumber(settings, throw_number);
   scene.seed = throwSeed(settings.seed, throw_number);
   Eigen::Map<Eigen::Vector4d>(scene.q_arm) = settings.q_rest;
   scene.duration = run.settle + std::max(plan_duration, t_landing + run.scene_tail);

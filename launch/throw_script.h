@@ -15,6 +15,8 @@ namespace fastball::launch {
 struct RunSettings {
   int throws = 1;
   int64_t seed = 1;
+  int64_t throws_before =
+      0;  ///< that the processes have made for earlier runs; numbers go on from there
   std::string strategy;
   Eigen::Vector4d q_rest = Eigen::Vector4d::Zero();  ///< [rad], where the arm rests before a throw
   model::Target target;
@@ -24,6 +26,9 @@ struct RunSettings {
 /// Seed of throw k = 1, 2, ... of a run: never negative, and unlike that of any other throw or run
 /// but for chance.
 int64_t throwSeed(int64_t seed, int throw_number);
+
+/// Number of throw k = 1, 2, ... in the messages: request, plan and scene.
+int64_t messageNumber(const RunSettings& settings, int throw_number);
 
 /// Simulated time [us] at which the scene of throw k begins.
 int64_t sceneUtime(const RunSettings& settings, int throw_number);

@@ -11,7 +11,7 @@ Verdicts::Verdicts(const ExperimentNode& experiment,
 void Verdicts::update() {
   while (!complete()) {
     const Throw& seen = experiment_.throws()[throws_.size()];
-    const Truth& truth = judge_.of(seen.number);
+    const Truth truth = judge_.of(seen.scene_id);
     if (!truth.finished)
       return;
     throws_.push_back(judge(seen, truth, target_radius_));

@@ -4,6 +4,7 @@ namespace fastball::messaging {
 namespace {
 
 constexpr int32_t kMaxImageBytes = 60000;
+constexpr int32_t kMostEvents = 1000000;
 constexpr int32_t kMaxPixels = 8192;  // of an image's side
 
 }  // namespace
@@ -47,6 +48,8 @@ std::optional<std::string> fault(const sim_truth_t& m) {
   check.stamp(m);
   check.notNegative("scene_id", m.scene_id);
   check.enumeration("event", m.event, sim_truth_t::SAMPLE, sim_truth_t::FINISHED);
+  check.within<int32_t>("event_index", m.event_index, m.event == sim_truth_t::SAMPLE ? 0 : 1,
+                        kMostEvents);
   return check.finite("p_WBall", m.p_WBall)
       .finite("v_WBall", m.v_WBall)
       .finite("w_WBall", m.w_WBall)

@@ -117,7 +117,7 @@ bool lengthsFit<plan_request_t>(const void* data, int size) {
 
 template <>
 bool lengthsFit<sim_truth_t>(const void* data, int size) {
-  return Walk(data, size).skip(3 * kInt64 + kInt8 + 15 * kDouble).string().end();
+  return Walk(data, size).skip(3 * kInt64 + kInt8 + kInt32 + 15 * kDouble).string().end();
 }
 
 template <>

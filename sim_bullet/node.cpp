@@ -12,6 +12,8 @@ namespace {
 constexpr int64_t kTickUs = 1000;
 /// Lockstep: an answer later than this [us of wall time] may have been lost.
 constexpr int64_t kRepeatUs = 20000;
+constexpr int64_t kEventRepeatUs = 200000;  // wall time
+constexpr int kEventRepeats = 10;
 /// SIM_TRUTH and CAMERA_INFO, in ticks.
 constexpr int64_t kTruthTicks = 10;
 constexpr int64_t kCameraInfoTicks = 1000;
@@ -111,6 +113,8 @@ void SimNode::step() {
     next_scene_.reset();
     begin(message);
   }
+  if (repeats_ > 0 && clock_.monotonicUs() >= next_repeat_us_)
+    repeatEvents();
   if (!running())
     return;
   if (setup_.realtime)
@@ -123,9 +127,11 @@ void SimNode::step() {
 int64_t SimNode::wakeUs() const {
   if (next_scene_)
     return clock_.monotonicUs();
+  const int64_t repeat_us = repeats_ > 0 ? next_repeat_us_ : INT64_MAX;
   if (!running())
-    return INT64_MAX;
-  return setup_.realtime ? start_us_ + (scene_->tick() + 1) * kTickUs : said_us_ + kRepeatUs;
+    return repeat_us;
+  return std::min(repeat_us, setup_.realtime ? start_us_ + (scene_->tick() + 1) * kTickUs
+                                             : said_us_ + kRepeatUs);
 }
 
 void SimNode::begin(const scene_t& message) {
@@ -219,10 +225,8 @@ void SimNode::afterTick() {
                               message_.scene_id, scene_->tick()));
     return;
   }
-  for (const SceneEvent& event : scene_->events()) {
-    sim_truth_t message = truth(event, message_.utime, message_.scene_id, scene_->state().q.arm);
-    truths_.publish(message);
-  }
+  for (const SceneEvent& event : scene_->events())
+    sayEvent(truth(event, message_.utime, message_.scene_id, scene_->state().q.arm));
   if (cameras_)
     cameras_->add(scene_->snapshot(message_.utime));
   if (scene_->tick() >= last_tick_) {
@@ -253,6 +257,19 @@ void SimNode::say(int8_t event) {
   truths_.publish(message);
 }
 
+void SimNode::sayEvent(sim_truth_t message) {
+  message.event_index = static_cast<int32_t>(events_.size()) + 1;
+  events_.push_back(message);
+  truths_.publish(message);
+}
+
+void SimNode::repeatEvents() {
+  for (sim_truth_t message : last_events_)
+    truths_.publish(message);
+  --repeats_;
+  next_repeat_us_ = clock_.monotonicUs() + kEventRepeatUs;
+}
+
 void SimNode::sayCameraInfo() {
   if (!cameras_)
     return;
@@ -278,8 +295,12 @@ void SimNode::end(const std::string& state, const std::string& note) {
     sim_truth_t message =
         truth(stamp(), sim_truth_t::FINISHED, scene_->ball(), scene_->state().q.arm);
     message.note = note;
-    truths_.publish(message);
+    sayEvent(message);
   }
+  last_events_ = std::move(events_);
+  events_.clear();
+  repeats_ = kEventRepeats;
+  next_repeat_us_ = clock_.monotonicUs() + kEventRepeatUs;
   scene_.reset();
   state_ = {state, note, message_.scene_id};
 }

@@ -60,6 +60,9 @@ class SimNode : public messaging::Node {
   void stepRealtime();
   void tickRealtime();
   void say(int8_t event);
+  void sayEvent(sim_truth_t message);
+  /// The events of the last scene that is over.
+  void repeatEvents();
   void sayStates();
   void sayCameraInfo();
   void sayImages();
@@ -89,7 +92,11 @@ class SimNode : public messaging::Node {
   int64_t said_us_ = 0;   ///< monotonic, lockstep: states last said
   int64_t start_us_ = 0;  ///< monotonic, real time: tick 0
   int64_t stray_commands_ = 0;
-  bool braking_ = false;  ///< real time: the watchdog has the arm
+  std::vector<sim_truth_t> events_;       ///< of the scene
+  std::vector<sim_truth_t> last_events_;  ///< of the one before, or of this one when it is over
+  int repeats_ = 0;                       ///< of those still to come
+  int64_t next_repeat_us_ = 0;            ///< monotonic
+  bool braking_ = false;                  ///< real time: the watchdog has the arm
   RenderedImage rendered_;
   messaging::NodeState state_;
 };

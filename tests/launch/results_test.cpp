@@ -84,10 +84,12 @@ TEST(Judge, KeepsTheFirstReleaseAndNamesALaterTouch) {
   messaging::LocalNetwork network(clock);
   Judge judge(network.addEndpoint());
   messaging::Publisher<sim_truth_t> truths(network.addEndpoint(), messaging::kSimTruth);
+  int index = 0;
   const auto tell = [&](int8_t event, int64_t utime, const std::string& note = "") {
     sim_truth_t truth{};
     truth.scene_id = 4;
     truth.event = event;
+    truth.event_index = ++index;
     truth.utime = utime;
     truth.note = note;
     truth.v_WBall[1] = static_cast<double>(utime);
@@ -104,6 +106,30 @@ TEST(Judge, KeepsTheFirstReleaseAndNamesALaterTouch) {
   EXPECT_EQ(judge.of(4).touched, "thumb");
   EXPECT_TRUE(judge.of(4).finished);
   EXPECT_FALSE(judge.of(3).finished);
+}
+
+TEST(Judge, WaitsForAnEventThatWasLostAndTakesItWhenItIsSaidAgain) {
+  messaging::ManualClock clock;
+  messaging::LocalNetwork network(clock);
+  Judge judge(network.addEndpoint());
+  messaging::Publisher<sim_truth_t> truths(network.addEndpoint(), messaging::kSimTruth);
+  const auto tell = [&](int8_t event, int32_t index, int64_t utime) {
+    sim_truth_t truth{};
+    truth.scene_id = 1;
+    truth.event = event;
+    truth.event_index = index;
+    truth.utime = utime;
+    truths.publish(truth);
+    network.run([] { return false; });
+  };
+  tell(sim_truth_t::RELEASED, 3, 300);
+  tell(sim_truth_t::FINISHED, 4, 400);
+  EXPECT_FALSE(judge.of(1).finished);
+  tell(sim_truth_t::TOUCHED, 2, 200);
+  EXPECT_FALSE(judge.of(1).finished);
+  tell(sim_truth_t::RELEASED, 1, 100);
+  EXPECT_TRUE(judge.of(1).finished);
+  EXPECT_EQ(judge.of(1).release_utime, 100);
 }
 
 }  // namespace

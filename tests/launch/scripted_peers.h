@@ -93,9 +93,9 @@ class ScriptedPeers {
     scenes.push_back(scene);
     if (!plays)
       return;
-    tell(sim_truth_t::RELEASED, scene.scene_id);
-    tell(sim_truth_t::LANDED, scene.scene_id);
-    tell(sim_truth_t::FINISHED, scene.scene_id);
+    tell(sim_truth_t::RELEASED, 1, scene.scene_id);
+    tell(sim_truth_t::LANDED, 2, scene.scene_id);
+    tell(sim_truth_t::FINISHED, 3, scene.scene_id);
     sim_bullet.own_state = {"finished", "", scene.scene_id};
     if (!measures)
       return;
@@ -108,10 +108,11 @@ class ScriptedPeers {
     landings_.publish(landing);
   }
 
-  void tell(int8_t event, int64_t scene_id) {
+  void tell(int8_t event, int32_t index, int64_t scene_id) {
     sim_truth_t truth{};
     truth.scene_id = scene_id;
     truth.event = event;
+    truth.event_index = index;
     truth.utime = 1000 * event;
     truth.v_WBall[0] = 3.0;
     truth.v_WBall[2] = 4.0;

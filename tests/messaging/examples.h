@@ -145,6 +145,7 @@ template <>
 inline sim_truth_t example() {
   sim_truth_t m{};
   m.event = sim_truth_t::FINISHED;
+  m.event_index = 3;
   m.note = "the ball lies still";
   return m;
 }

@@ -141,7 +141,6 @@ TEST_F(Simulator, RunsASceneToItsEnd) {
   EXPECT_EQ(peers_.truths.back().utime, 10'200'000);
   EXPECT_EQ(node_.state().state, "finished");
   EXPECT_EQ(node_.state().plan_id, 1);
-  EXPECT_EQ(node_.wakeUs(), INT64_MAX);
   for (const hand_state_t& state : peers_.hand_states)
     EXPECT_TRUE(state.tick < 100 || state.f_normal[model::kThumb] > 1) << state.tick;
 
@@ -207,6 +206,23 @@ TEST_F(Simulator, RefusesScenesThatMakeNoSense) {
     EXPECT_EQ(node_.state().state, "failed");
     EXPECT_THAT(node_.state().detail, HasSubstr(reasons[i]));
   }
+}
+
+TEST_F(Simulator, SaysTheEventsOfAFinishedSceneAgainForTwoSeconds) {
+  peers_.sendScene(sceneMessage(1, 0.2));
+  settle();
+  const sim_truth_t finished = peers_.truths.back();
+  EXPECT_EQ(finished.event_index, 1 + peers_.count(sim_truth_t::RELEASED) +
+                                      peers_.count(sim_truth_t::LANDED) +
+                                      peers_.count(sim_truth_t::TOUCHED));
+  while (node_.wakeUs() != INT64_MAX) {
+    clock_.advanceUs(node_.wakeUs() - clock_.monotonicUs());
+    settle();
+  }
+  EXPECT_EQ(clock_.monotonicUs(), 2'000'000);
+  EXPECT_EQ(peers_.count(sim_truth_t::FINISHED), 11);
+  EXPECT_EQ(peers_.truths.back().event_index, finished.event_index);
+  EXPECT_EQ(peers_.truths.back().utime, finished.utime);
 }
 
 TEST_F(Simulator, ANewSceneEndsTheOldOne) {

@@ -82,7 +82,9 @@ FastballRun::FastballRun(std::vector<std::string> arguments,
       url_(fmt::format("udpm://239.255.76.67:{}?ttl=0", kFirstPort + getpid() % kPorts)),
       impl_(std::make_unique<Impl>()) {
   const bool has_network =
-      std::find(arguments.begin(), arguments.end(), "--no-network") == arguments.end();
+      std::none_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+        return argument == "--no-network" || argument == "--system";
+      });
   if (!arguments.empty() && arguments.front() == "run") {
     addFlag(arguments, "--json", folder_ + "/result.json");
     if (has_network)
