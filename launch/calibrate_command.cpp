@@ -8,10 +8,10 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "config/calibration_file.h"
 #include "launch/commands.h"
 #include "messaging/process.h"
 #include "vision_tracker/board_calibration.h"
-#include "vision_tracker/calibration.h"
 
 namespace fastball::launch {
 namespace {
@@ -56,7 +56,7 @@ int calibrate(const CalibrateOptions& options) {
   const std::filesystem::path folder(options.folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  vision_tracker::writeCalibration((folder / "calibration.yaml").string(), {found.camera});
+  config::writeCalibration((folder / "calibration.yaml").string(), {found.camera});
   std::ofstream table(folder / "residuals.csv");
   table << "image,corners,used,rms_px\n";
   for (const vision_tracker::BoardView& view : found.views)

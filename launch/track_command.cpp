@@ -9,10 +9,10 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "config/calibration_file.h"
 #include "config/experiment.h"
 #include "launch/commands.h"
 #include "messaging/process.h"
-#include "vision_tracker/calibration.h"
 #include "vision_tracker/config.h"
 #include "vision_tracker/video_track.h"
 
@@ -56,7 +56,7 @@ int track(const TrackOptions& options) {
   const vision_tracker::TrackerOptions tracker = vision_tracker::readTracker(path).tracker;
   std::vector<model::Camera> cameras;
   if (!options.calibration.empty())
-    cameras = vision_tracker::readCalibration(options.calibration);
+    cameras = config::readCalibration(options.calibration);
   if (cameras.empty() && !(options.radius > 0))
     throw std::invalid_argument(
         "--radius: without --calib the ball's approximate radius in pixels is needed");

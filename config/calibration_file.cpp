@@ -1,4 +1,4 @@
-#include "vision_tracker/calibration.h"
+#include "config/calibration_file.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
-namespace fastball::vision_tracker {
+namespace fastball::config {
 namespace {
 
 constexpr int kMostCameras = 4;
@@ -168,4 +168,4 @@ void writeCalibration(const std::string& path, const std::vector<model::Camera>&
   file << "]";
 }
 
-}  // namespace fastball::vision_tracker
+}  // namespace fastball::config

@@ -5,7 +5,7 @@
 
 #include "model/camera.h"
 
-namespace fastball::vision_tracker {
+namespace fastball::config {
 
 /// Cameras from a calibration file as OpenCV writes it (YAML, XML or JSON of cv::FileStorage). One camera at the top level:
 ///   image_width, image_height      [px]
@@ -21,4 +21,4 @@ std::vector<model::Camera> readCalibration(const std::string& path);
 /// @throw std::invalid_argument if it cannot be written
 void writeCalibration(const std::string& path, const std::vector<model::Camera>& cameras);
 
-}  // namespace fastball::vision_tracker
+}  // namespace fastball::config

@@ -1,4 +1,4 @@
-#include "vision_tracker/calibration.h"
+#include "config/calibration_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "sim_bullet/camera_config.h"
 #include "tests/vision_tracker/experiment_path.h"
 
-namespace fastball::vision_tracker {
+namespace fastball::config {
 namespace {
 
 using ::testing::AllOf;
@@ -91,4 +91,4 @@ TEST_F(Calibration, NamesFileAndKeyOfWhatItRefuses) {
 }
 
 }  // namespace
-}  // namespace fastball::vision_tracker
+}  // namespace fastball::config
