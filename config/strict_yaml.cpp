@@ -232,12 +232,14 @@ std::string Section::text(const std::string& key) {
 
 std::vector<std::string> Section::texts(const std::string& key) {
   const YAML::Node node = impl_->value(key);
-  if (!node.IsSequence())
+  if (!node.IsSequence()) {
     throw impl_->fault(node, key, "must be a list of words, not " + kind(node));
+  }
   std::vector<std::string> words;
   for (const YAML::Node& item : node) {
-    if (!item.IsScalar())
+    if (!item.IsScalar() || item.Scalar().empty()) {
       throw impl_->fault(item, key, "must be a list of words, and has " + kind(item));
+    }
     words.push_back(item.Scalar());
   }
   return words;

@@ -36,6 +36,7 @@ TEST_F(StrictYaml, ReadsEveryKindOfValue) {
       "grid: [[1, 2], [3, 4]]\n"
       "inner: {a: 1}\n"
       "items: [{a: 1}, {a: 2}]\n"
+      "words: [left, right]\n"
       "source: a book\n");
   EXPECT_EQ(section.number("plain"), 1.5);
   EXPECT_EQ(section.number("annotated", kPositive), 2.5);
@@ -48,6 +49,7 @@ TEST_F(StrictYaml, ReadsEveryKindOfValue) {
   EXPECT_EQ(section.matrix("grid", 2, 2), (Eigen::Matrix2d() << 1, 2, 3, 4).finished());
   EXPECT_EQ(section.section("inner").number("a"), 1);
   EXPECT_EQ(section.sections("items").at(1).number("a"), 2);
+  EXPECT_EQ(section.texts("words"), (std::vector<std::string>{"left", "right"}));
   EXPECT_FALSE(section.has("absent"));
   EXPECT_TRUE(section.has("source"));
   section.ignore("source");
@@ -116,6 +118,8 @@ TEST_F(StrictYaml, AWrongTypeIsNamed) {
   EXPECT_THAT(faultOf([&] { section.number("none"); }), StartsWith(at(5, "none")));
   EXPECT_THAT(faultOf([&] { section.text("none"); }), StartsWith(at(5, "none")));
   EXPECT_THAT(faultOf([&] { section.text("list"); }), StartsWith(at(3, "list")));
+  EXPECT_THAT(faultOf([&] { section.texts("word"); }), StartsWith(at(1, "word")));
+  EXPECT_THAT(faultOf([&] { section.texts("none"); }), StartsWith(at(5, "none")));
   EXPECT_THAT(faultOf([&] { section.integer("half", 0, 1); }), StartsWith(at(6, "half")));
   EXPECT_THAT(faultOf([&] { section.integer("big", 0, 1); }), StartsWith(at(7, "big")));
   EXPECT_THAT(faultOf([&] { section.number("huge"); }), StartsWith(at(8, "huge")));
