@@ -2,10 +2,12 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <stdexcept>
 
+#include "config/experiment.h"
 #include "launch/processes.h"
 #include "launch/replay.h"
 #include "launch/roster.h"
@@ -28,7 +30,9 @@ std::string privateUrl() {
 class TrackerRerun {
  public:
   explicit TrackerRerun(const std::string& config_path)
-      : endpoint_(privateUrl()), roster_(endpoint_) {
+      : cameras_(config::processSection(config_path, "tracker").texts("cameras")),
+        endpoint_(privateUrl()),
+        roster_(endpoint_) {
     endpoint_.subscribe<ball_observation_t>(messaging::kBallObservation,
                                             [this](const ball_observation_t&) { ++answered_; });
     endpoint_.subscribe<landing_t>(messaging::kLanding,
@@ -40,8 +44,8 @@ class TrackerRerun {
   }
 
   void feed(const logger::LogEntry& entry) {
-    const bool is_image = entry.channel == messaging::kCameraLeft.name ||
-                          entry.channel == messaging::kCameraRight.name;
+    const bool is_image =
+        std::find(cameras_.begin(), cameras_.end(), entry.channel) != cameras_.end();
     if (is_image || entry.channel == messaging::kCameraInfo.name ||
         entry.channel == messaging::kPlanRequest.name)
       endpoint_.publishBytes(entry.channel, entry.data.data(), entry.data.size());
@@ -86,6 +90,7 @@ class TrackerRerun {
     }
   }
 
+  std::vector<std::string> cameras_;  ///< channels of the images that the tracker uses
   messaging::LcmEndpoint endpoint_;
   Roster roster_;
   Processes processes_;

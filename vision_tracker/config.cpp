@@ -1,13 +1,43 @@
 #include "vision_tracker/config.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "config/experiment.h"
+#include "config/image_channel.h"
 
 namespace fastball::vision_tracker {
+
+namespace {
+
+constexpr std::size_t kMostCameras = 4;
+
+std::vector<std::string> readCameras(config::Section& section) {
+  std::vector<std::string> names = section.texts("cameras");
+  if (names.empty() || names.size() > kMostCameras)
+    throw section.error("cameras", fmt::format("names {} cameras, there can be one to {}",
+                                               names.size(), kMostCameras));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!config::isImageChannel(names[i]))
+      throw section.error("cameras",
+                          fmt::format("has '{}', which is no channel of images: CAMERA_ and "
+                                      "capitals, digits or underscores, not CAMERA_INFO",
+                                      names[i]));
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw section.error("cameras", fmt::format("names {} twice", names[i]));
+  }
+  return names;
+}
+
+}  // namespace
 
 TrackerConfig readTracker(const std::string& path) {
   const config::Experiment experiment = config::loadExperiment(path);
   config::Section section = config::processSection(path, "tracker");
   TrackerConfig config;
+  config.cameras = readCameras(section);
   DetectorOptions& detector = config.tracker.detector;
   detector.ball_radius = experiment.ball.radius;
   const Eigen::VectorXd depth = section.vector("depth", 2, {0.2, 100});
@@ -29,6 +59,7 @@ TrackerConfig readTracker(const std::string& path) {
   prior.calibration.focal_length = calibration.number("focal_length", {0, 0.1});
   calibration.finish();
   config.tracker.longest_gap = section.number("longest_gap", {0.01, 1});
+  config.longest_wait = section.number("longest_wait", {1, 1e5});
   config.silence = section.number("silence", {0.1, 60});
   section.finish();
   return config;

@@ -1,163 +1,190 @@
 #include "vision_tracker/node.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
-#include <Eigen/LU>
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "config/experiment.h"
+#include "messaging/image_channel.h"
 #include "messaging/validation.h"
+#include "vision_tracker/camera_message.h"
 #include "vision_tracker/config.h"
 #include "vision_tracker/image_order.h"
+#include "vision_tracker/result_messages.h"
+#include "vision_tracker/size_check.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
-constexpr int kCameras = 2;
-const std::array<const messaging::Channel<image_t>*, kCameras> kImages = {&messaging::kCameraLeft,
-                                                                          &messaging::kCameraRight};
-
-void copyCovariance(const Eigen::Matrix2d& cov, double (&out)[3]) {
-  out[0] = cov(0, 0);
-  out[1] = cov(0, 1);
-  out[2] = cov(1, 1);
-}
-
-void copyVector(const Eigen::Vector3d& v, double (&out)[3]) {
-  Eigen::Map<Eigen::Vector3d>{out} = v;
-}
-
-/// Nothing if no camera can be like that.
-std::optional<CameraSetup> cameraSetup(const camera_info_t& m) {
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  CameraSetup setup;
-  setup.rate = m.rate;
-  setup.exposure = m.exposure;
-  model::Camera& camera = setup.camera;
-  camera.width = m.width;
-  camera.height = m.height;
-  camera.fx = m.K[0];
-  camera.fy = m.K[4];
-  camera.cx = m.K[2];
-  camera.cy = m.K[5];
-  camera.distortion = Eigen::Map<const Eigen::Matrix<double, 5, 1>>(m.D);
-  camera.R_CW = Eigen::Map<const RowMajor>(m.R_CW);
-  camera.p_CW = Eigen::Map<const Eigen::Vector3d>(m.p_CW);
-  const bool rotation =
-      (camera.R_CW * camera.R_CW.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-6 &&
-      camera.R_CW.determinant() > 0;
-  if (!(rotation && camera.fx > 0 && camera.fy > 0))
-    return std::nullopt;
-  return setup;
-}
+// With these, no sum of times leaves its number type.
+constexpr double kFarthest = 1000;  // [m], a target
+constexpr int64_t kLatestUs = 1LL << 60;
 
 class TrackerNode : public messaging::Node {
  public:
   TrackerNode(messaging::Endpoint& endpoint,
               const messaging::Clock& clock,
               const TrackerConfig& config)
-      : clock_(clock),
+      : endpoint_(endpoint),
+        clock_(clock),
+        names_(config.cameras),
         silence_us_(std::llround(config.silence * 1e6)),
+        patience_us_(std::llround(config.longest_wait * 1e6)),
+        prior_(config.tracker.prior),
         tracker_(config.tracker),
-        order_(kCameras),
+        order_(static_cast<int>(names_.size())),
         observations_(endpoint, messaging::kBallObservation),
         tracks_(endpoint, messaging::kBallTrack),
-        landings_(endpoint, messaging::kLanding) {
+        landings_(endpoint, messaging::kLanding),
+        infos_(names_.size()) {
     endpoint.subscribe<camera_info_t>(messaging::kCameraInfo,
                                       [this](const camera_info_t& m) { takeInfo(m); });
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
                                        [this](const plan_request_t& m) { takeRequest(m); });
-    for (int camera = 0; camera < kCameras; ++camera)
-      endpoint.subscribe<image_t>(*kImages[static_cast<std::size_t>(camera)],
+    for (std::size_t camera = 0; camera < names_.size(); ++camera)
+      endpoint.subscribe<image_t>(messaging::imageChannel(names_[camera].c_str()),
                                   [this, camera](const image_t& m) { takeImage(camera, m); });
   }
 
   std::string name() const override { return "vision_tracker"; }
 
   void step() override {
+    countMalformed();
     while (const auto image = order_.next()) {
       process(*image);
       last_image_us_ = clock_.monotonicUs();  // a backlog worked off is no silence
     }
-    if (clock_.monotonicUs() < wakeUs())
-      return;
-    while (const auto image = order_.nextAnyway())
-      process(*image);
-    tracker_.end();
-    sayLanding();
+    if (clock_.monotonicUs() >= wakeUs())
+      endThrow();
   }
 
   int64_t wakeUs() const override {
-    const bool on =
-        request_id_ != 0 && images_ > 0 && tracker_.state() != ThrowTracker::State::kLanded;
+    const bool on = request_id_ != 0 && images_ + refused_ > 0 && !over();
     return on ? last_image_us_ + silence_us_ : INT64_MAX;
   }
 
-  messaging::NodeState state() const override { return {word(), notice_, request_id_}; }
+  messaging::NodeState state() const override {
+    return {word(), notice_.empty() ? stranger_ : notice_, request_id_};
+  }
+
+  void shutDown() override {
+    if (strangers_ > 0)
+      spdlog::info("{}; {} such messages came", stranger_, strangers_);
+  }
 
  private:
+  bool over() const { return abandoned_ || tracker_.state() == ThrowTracker::State::kLanded; }
+
   const char* word() const {
     if (request_id_ == 0)
       return "idle";
-    switch (tracker_.state()) {
-      case ThrowTracker::State::kTracking:
-        return "tracking";
-      case ThrowTracker::State::kLanded:
-        return "landed";
-      default:
-        return "waiting";
-    }
+    if (over())
+      return "landed";
+    return tracker_.state() == ThrowTracker::State::kTracking ? "tracking" : "waiting";
   }
 
-  bool calibrated() const { return infos_[0] && infos_[1]; }
+  bool calibrated() const {
+    return std::all_of(infos_.begin(), infos_.end(), [](const auto& info) { return !!info; });
+  }
 
   void takeInfo(const camera_info_t& m) {
-    for (std::size_t camera = 0; camera < kCameras; ++camera) {
-      if (m.channel != kImages[camera]->name)
-        continue;
-      const std::optional<CameraSetup> setup = cameraSetup(m);
-      if (!setup) {
-        notice_ = fmt::format(
-            "CAMERA_INFO of {} is no calibration: focal length {} px, or R_CW is no rotation",
-            m.channel, m.K[0]);
-        return;
-      }
-      infos_[camera] = setup;
+    const auto name = std::find(names_.begin(), names_.end(), m.channel);
+    if (name == names_.end()) {
+      takeStranger(m.channel);
+      return;
     }
+    const std::string fault = cameraFault(m);
+    if (!fault.empty()) {
+      if (notice_.empty())
+        notice_ = fmt::format("CAMERA_INFO of {} is no calibration: {}", m.channel, fault);
+      return;
+    }
+    const CameraSetup setup = cameraSetup(m);
+    std::optional<CameraSetup>& known = infos_[static_cast<std::size_t>(name - names_.begin())];
+    if (known && sameCamera(*known, setup))
+      return;
+    const bool changed = known.has_value();
+    known = setup;
+    // What came by then was seen with another camera, or by it at another place.
+    if (changed && images_ > 0 && !over())
+      abandon(
+          fmt::format("not measured: the calibration of {} changed during the throw", m.channel));
+    if (images_ == 0)
+      setCameras();
+  }
+
+  /// The calibrations hold for a whole throw.
+  void setCameras() {
     if (!calibrated())
       return;
-    for (int camera = 0; camera < kCameras; ++camera)
-      tracker_.setCamera(camera, *infos_[static_cast<std::size_t>(camera)]);
+    for (std::size_t camera = 0; camera < infos_.size(); ++camera)
+      tracker_.setCamera(static_cast<int>(camera), *infos_[camera]);
+  }
+
+  void takeStranger(const std::string& channel) {
+    ++strangers_;
+    if (!stranger_.empty())
+      return;
+    stranger_ = messaging::shortened(fmt::format(
+        "CAMERA_INFO of {} is of none of tracker.cameras, {}", channel, fmt::join(names_, ", ")));
+    spdlog::warn("{}", stranger_);
   }
 
   void takeRequest(const plan_request_t& m) {
     if (m.request_id == request_id_)
       return;
-    request_id_ = m.request_id;
     model::Target target;
     target.p_WTarget = Eigen::Map<const Eigen::Vector3d>(m.p_WTarget);
     target.n_WTarget = Eigen::Map<const Eigen::Vector3d>(m.n_WTarget).normalized();
     target.radius = m.target_radius;
-    tracker_.begin(target);
-    order_.reset();
+    if (!(target.p_WTarget.norm() < kFarthest))
+      throw std::invalid_argument(fmt::format("the target of request {} is {:.3g} m away",
+                                              m.request_id, target.p_WTarget.norm()));
+    if (request_id_ != 0 && images_ + refused_ > 0 && !over())
+      endThrow();
+    request_id_ = m.request_id;
     images_ = 0;
     refused_ = 0;
+    abandoned_ = false;
+    malformed_ = malformed();
     notice_.clear();
+    tracker_.begin(target);
+    sizes_.reset();
+    setCameras();
+    order_.reset();
   }
 
-  void takeImage(int camera, const image_t& m) {
+  /// No image of the throw will come any more.
+  void endThrow() {
+    while (const auto image = order_.nextAnyway())
+      process(*image);
+    if (over())
+      return;
+    tracker_.end();
+    sayLanding();
+  }
+
+  void takeImage(std::size_t camera, const image_t& m) {
     last_image_us_ = clock_.monotonicUs();
     if (request_id_ == 0 || !calibrated()) {
       complain(camera, m.seq,
                request_id_ == 0 ? "came before a PLAN_REQUEST"
-                                : "came before CAMERA_INFO of both cameras");
+                                : "came before CAMERA_INFO of " + uncalibrated());
       return;
     }
-    switch (order_.push({camera, m.utime, m.seq, m.width, m.height, m.row_stride,
+    if (m.utime > kLatestUs) {
+      complain(camera, m.seq, fmt::format("has the time {} us, which is no time", m.utime));
+      return;
+    }
+    switch (order_.push({static_cast<int>(camera), m.utime, m.seq, m.width, m.height, m.row_stride,
                          m.pixelformat == image_t::MJPEG, m.data})) {
       case ImageOrder::Verdict::kAccepted:
-        ++images_;
+        if (++images_ == 1)
+          first_utime_ = m.utime;
         break;
       case ImageOrder::Verdict::kRepeated:
         complain(camera, m.seq, "came twice");
@@ -168,42 +195,69 @@ class TrackerNode : public messaging::Node {
     }
   }
 
+  std::string uncalibrated() const {
+    std::vector<std::string> missing;
+    for (std::size_t camera = 0; camera < names_.size(); ++camera)
+      if (!infos_[camera])
+        missing.push_back(names_[camera]);
+    return fmt::format("{}", fmt::join(missing, " and "));
+  }
+
+  /// Images whose message did not decode or broke its rule, ever.
+  int64_t malformed() const {
+    int64_t sum = 0;
+    for (const std::string& name : names_)
+      sum += endpoint_.counts().at(name).invalid;
+    return sum;
+  }
+
+  /// They do not come to takeImage(), and are images of the throw all the same.
+  void countMalformed() {
+    const int64_t more = malformed() - malformed_;
+    if (more == 0)
+      return;
+    malformed_ += more;
+    refused_ += more;
+    last_image_us_ = clock_.monotonicUs();
+    if (notice_.empty())
+      notice_ = "an image message was cut off, or of a pixel format other than GRAY and MJPEG";
+  }
+
   /// The HEARTBEAT says the first fault of a throw, LANDING says how many there were.
-  void complain(int camera, int64_t frame, const std::string& why) {
+  void complain(std::size_t camera, int64_t frame, const std::string& why) {
     ++refused_;
     if (notice_.empty())
-      notice_ = fmt::format("{}: image {} {}", kImages[static_cast<std::size_t>(camera)]->name,
-                            frame, why);
+      notice_ = fmt::format("{}: image {} {}", names_[camera], frame, why);
   }
 
   void process(const ReceivedImage& image) {
-    const model::Camera& camera = infos_[static_cast<std::size_t>(image.camera)]->camera;
+    const auto index = static_cast<std::size_t>(image.camera);
     Sighting sighting;
-    if (tracker_.state() != ThrowTracker::State::kLanded) {
+    if (!over()) {
+      const model::Camera& camera = infos_[index]->camera;
       const std::string fault = decode(image, {camera.width, camera.height}, decoded_);
       if (fault.empty())
         sighting = tracker_.add(image.camera, image.utime, decoded_);
       else
-        complain(image.camera, image.frame, fault);
+        complain(index, image.frame, fault);
+      if (sighting.found)
+        sizes_.add(image.camera, image.utime, sighting.fit);
     }
     sayObservation(image, sighting);
     sayTrack();
     sayLanding();
+    if (!over() && image.utime - first_utime_ > patience_us_) {
+      tracker_.end();
+      sayLanding();
+    }
   }
 
   void sayObservation(const ReceivedImage& image, const Sighting& sighting) {
-    ball_observation_t m{};
+    ball_observation_t m = observationMessage(sighting);
     m.utime = image.utime;
     m.request_id = request_id_;
-    m.channel = kImages[static_cast<std::size_t>(image.camera)]->name;
+    m.channel = names_[static_cast<std::size_t>(image.camera)];
     m.frame = image.frame;
-    if (sighting.found) {
-      m.found = 1;
-      m.u = sighting.fit.centre.x();
-      m.v = sighting.fit.centre.y();
-      m.radius = sighting.fit.radius;
-      copyCovariance(sighting.fit.cov, m.cov_uv);
-    }
     observations_.publish(m);
   }
 
@@ -211,58 +265,76 @@ class TrackerNode : public messaging::Node {
     const auto report = tracker_.takeTrack();
     if (!report)
       return;
-    ball_track_t m{};
-    m.utime = report->utime;
+    ball_track_t m = trackMessage(*report);
     m.request_id = request_id_;
-    m.n_observations = report->observations;
-    copyVector(report->state.p_WBall, m.p_WBall);
-    copyVector(report->state.v_WBall, m.v_WBall);
-    m.drag = report->drag;
-    Eigen::Map<Eigen::Vector2d>{m.landing} = report->landing.landing;
-    copyCovariance(report->landing.cov, m.cov_landing);
-    m.landing_utime = report->landing.utime;
     tracks_.publish(m);
   }
 
+  /// Ends the throw without the tracker.
+  void abandon(const std::string& why) {
+    abandoned_ = true;
+    LandingReport report;
+    report.message = why;
+    sayLanding(report);
+  }
+
   void sayLanding() {
-    const auto report = tracker_.takeLanding();
-    if (!report)
-      return;
-    landing_t m{};
+    if (const auto report = tracker_.takeLanding())
+      sayLanding(checked(*report));
+  }
+
+  /// A landing of a ball whose size is not that of its distance is none.
+  LandingReport checked(const LandingReport& report) const {
+    if (!report.measured)
+      return report;
+    std::vector<model::Camera> cameras;
+    for (const auto& info : infos_)
+      cameras.push_back(info->camera);
+    const auto excess = sizes_.excess(report.landing, cameras, prior_);
+    if (!excess || std::abs(*excess) < SizeCheck::kTolerance)
+      return report;
+    LandingReport refused;
+    refused.message = fmt::format(
+        "not measured: the ball looks {:.0f} % {} than one of {} m radius at its distance, so a "
+        "calibration or the radius is wrong",
+        100 * std::abs(*excess), *excess > 0 ? "larger" : "smaller", prior_.ball_radius);
+    return refused;
+  }
+
+  void sayLanding(const LandingReport& report) {
+    landing_t m = landingMessage(report);
     m.request_id = request_id_;
-    m.measured = report->measured ? 1 : 0;
-    m.message = report->message;
-    if (refused_ > 0) {
+    if (refused_ > 0)
       m.message += fmt::format("{}{} images could not be used, the first: {}",
                                m.message.empty() ? "" : "; ", refused_, notice_);
-      m.message = messaging::shortened(m.message);
-    }
-    if (report->measured) {
-      m.utime = report->landing.utime;
-      Eigen::Map<Eigen::Vector2d>{m.landing} = report->landing.landing;
-      copyCovariance(report->landing.cov, m.cov_landing);
-      copyVector(report->landing.state.v_WBall, m.v_WBall);
-      m.n_observations = report->observations;
-      m.residual_px = report->residual_px;
-    }
+    m.message = messaging::shortened(m.message);
     landings_.publish(m);
   }
 
+  messaging::Endpoint& endpoint_;
   const messaging::Clock& clock_;
-  int64_t silence_us_;
+  const std::vector<std::string> names_;  ///< channels of the cameras' images
+  int64_t silence_us_, patience_us_;
+  FlightPrior prior_;
   ThrowTracker tracker_;
+  SizeCheck sizes_;
   ImageOrder order_;
   messaging::Publisher<ball_observation_t> observations_;
   messaging::Publisher<ball_track_t> tracks_;
   messaging::Publisher<landing_t> landings_;
 
-  std::array<std::optional<CameraSetup>, kCameras> infos_;
+  std::vector<std::optional<CameraSetup>> infos_;  ///< newest of each camera
   cv::Mat decoded_;
   int64_t request_id_ = 0;
+  bool abandoned_ = false;     ///< the throw
   int64_t images_ = 0;         ///< accepted, of the throw
   int64_t refused_ = 0;        ///< images, of the throw
+  int64_t malformed_ = 0;      ///< of malformed(), counted already
+  int64_t first_utime_ = 0;    ///< of the throw's first image
   int64_t last_image_us_ = 0;  ///< monotonic
   std::string notice_;
+  int64_t strangers_ = 0;  ///< CAMERA_INFO of other cameras
+  std::string stranger_;   ///< of the first of them
 };
 
 }  // namespace

@@ -1,70 +1,14 @@
 // The tracker's node among scripted cameras, in one process.
-#include "vision_tracker/node.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "messaging/local_network.h"
-#include "tests/vision_tracker/messages.h"
+#include "tests/vision_tracker/tracker_node_fixture.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
-using bench::SyntheticThrow;
 using sim_bullet::RenderedImage;
-
-class TrackerNodeTest : public ::testing::Test {
- protected:
-  TrackerNodeTest() {
-    experimenter_.subscribe<landing_t>(messaging::kLanding,
-                                       [this](const landing_t& m) { landings_.push_back(m); });
-    experimenter_.subscribe<ball_observation_t>(
-        messaging::kBallObservation,
-        [this](const ball_observation_t& m) { observations_.push_back(m); });
-    experimenter_.subscribe<ball_track_t>(messaging::kBallTrack,
-                                          [this](const ball_track_t& m) { tracks_.push_back(m); });
-    messaging::ProcessOptions options;
-    options.config = testing::experimentPath();
-    node_ = makeNode(endpoint_, clock_, options);
-    network_.addNode(*node_, endpoint_);
-    sim_bullet::CameraRigOptions rig = sim_bullet::readCameraRig(testing::experimentPath());
-    rig.workers = 2;
-    rig_ = std::make_unique<sim_bullet::CameraRig>(rig, experiment_.arm, experiment_.hand,
-                                                   experiment_.ball.radius);
-  }
-
-  void run() {
-    network_.run([] { return false; });
-  }
-  void request(int64_t id) {
-    experimenter_.publish(messaging::kPlanRequest, testing::requestMessage(experiment_, id));
-  }
-  void calibrate() {
-    for (const sim_bullet::RigCamera& camera : rig_->cameras())
-      experimenter_.publish(messaging::kCameraInfo, testing::infoMessage(camera));
-  }
-  void show(const RenderedImage& image) {
-    experimenter_.publish(image.camera == 0 ? messaging::kCameraLeft : messaging::kCameraRight,
-                          testing::imageMessage(image));
-  }
-  std::vector<RenderedImage> drawn(int seed) {
-    synthetic_ = bench::makeThrow(experiment_, seed);
-    return bench::renderThrow(*rig_, experiment_, synthetic_, seed);
-  }
-
-  config::Experiment experiment_ = config::loadExperiment(testing::experimentPath());
-  messaging::ManualClock clock_;
-  messaging::LocalNetwork network_{clock_};
-  messaging::Endpoint& experimenter_ = network_.addEndpoint();
-  messaging::Endpoint& endpoint_ = network_.addEndpoint();
-  std::unique_ptr<messaging::Node> node_;
-  std::unique_ptr<sim_bullet::CameraRig> rig_;
-  SyntheticThrow synthetic_;
-  std::vector<landing_t> landings_;
-  std::vector<ball_observation_t> observations_;
-  std::vector<ball_track_t> tracks_;
-};
 
 TEST_F(TrackerNodeTest, MeasuresAThrow) {
   EXPECT_EQ(node_->state().state, "idle");
@@ -139,7 +83,8 @@ TEST_F(TrackerNodeTest, DropsImagesBeforeItKnowsTheCamerasAndTheTarget) {
   request(1);
   show(images[1]);
   run();
-  EXPECT_EQ(node_->state().detail, "CAMERA_RIGHT: image 0 came before CAMERA_INFO of both cameras");
+  EXPECT_EQ(node_->state().detail,
+            "CAMERA_RIGHT: image 0 came before CAMERA_INFO of CAMERA_LEFT and CAMERA_RIGHT");
   EXPECT_TRUE(observations_.empty());
 }
 
