@@ -4,7 +4,7 @@ file(GLOB_RECURSE own_files
   ${PROJECT_SOURCE_DIR}/config/*.[ch]* ${PROJECT_SOURCE_DIR}/planner/*.[ch]*
   ${PROJECT_SOURCE_DIR}/controller/*.[ch]* ${PROJECT_SOURCE_DIR}/hand_server/*.[ch]*
   ${PROJECT_SOURCE_DIR}/sim_bullet/*.[ch]* ${PROJECT_SOURCE_DIR}/vision_tracker/*.[ch]*
-  ${PROJECT_SOURCE_DIR}/logger/*.[ch]* ${PROJECT_SOURCE_DIR}/launch/*.[ch]*
+  ${PROJECT_SOURCE_DIR}/camera/*.[ch]* ${PROJECT_SOURCE_DIR}/logger/*.[ch]* ${PROJECT_SOURCE_DIR}/launch/*.[ch]*
   ${PROJECT_SOURCE_DIR}/tests/*.[ch]* ${PROJECT_SOURCE_DIR}/bench/*.[ch]*)
 list(FILTER own_files INCLUDE REGEX "\\.(cpp|h)$")
 find_program(CLANG_FORMAT clang-format)
