@@ -1,12 +1,13 @@
 #include "bench/flight_trials.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <random>
 
 #include "bench/flight_bound.h"
 #include "bench/synthetic_throw.h"
+#include "vision_tracker/flight_landing.h"
+#include "vision_tracker/free_flight.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::bench {
@@ -65,15 +66,11 @@ class Trial {
     };
     std::vector<model::Camera> cameras = cameras_;
     for (model::Camera& camera : cameras) {
-      const Eigen::Vector3d p_WCamera =
-          -camera.R_CW.transpose() * camera.p_CW + drawn(options_.calibration.position);
-      const Eigen::Vector3d turn = drawn(options_.calibration.rotation);
-      if (turn.norm() > 0)
-        camera.R_CW = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * camera.R_CW;
-      camera.p_CW = -camera.R_CW * p_WCamera;
-      const double longer = 1 + options_.calibration.focal_length * normal(random_);
-      camera.fx *= longer;
-      camera.fy *= longer;
+      vision_tracker::CameraConstants error = vision_tracker::CameraConstants::Zero();
+      error.segment<3>(5) = drawn(options_.calibration.position);
+      error.segment<3>(2) = drawn(options_.calibration.rotation);
+      error[8] = options_.calibration.focal_length * normal(random_);
+      camera = vision_tracker::displaced(camera, error);
     }
     return cameras;
   }

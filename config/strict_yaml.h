@@ -42,8 +42,6 @@ class Section {
   std::vector<std::string> texts(const std::string& key);
   /// One of `allowed`.
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
-  /// A list of words.
-  std::vector<std::string> texts(const std::string& key);
   /// `size` numbers; size -1: any number of them.
   Eigen::VectorXd vector(const std::string& key, int size, Range range = {});
   /// A list of lists, row by row.

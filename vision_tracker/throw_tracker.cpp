@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "vision_tracker/flight_fit.h"
+#include "vision_tracker/free_flight.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {

@@ -10,8 +10,9 @@
 #include "model/target.h"
 #include "vision_tracker/background.h"
 #include "vision_tracker/ball_detector.h"
+#include "vision_tracker/flight_estimate.h"
 #include "vision_tracker/flight_finder.h"
-#include "vision_tracker/flight_fit.h"
+#include "vision_tracker/flight_landing.h"
 
 namespace fastball::vision_tracker {
 

@@ -9,6 +9,8 @@
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
+#include "vision_tracker/free_flight.h"
+
 namespace fastball::vision_tracker {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/camera.h"
-#include "vision_tracker/flight_fit.h"
+#include "vision_tracker/flight_estimate.h"
 #include "vision_tracker/pixel_tracker.h"
 
 namespace fastball::vision_tracker {

@@ -11,6 +11,8 @@
 #include "bench/synthetic_throw.h"
 #include "sim_bullet/camera_config.h"
 #include "tests/vision_tracker/experiment_path.h"
+#include "vision_tracker/flight_landing.h"
+#include "vision_tracker/free_flight.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
@@ -104,6 +106,61 @@ TEST_F(FlightFit, CovarianceIsWhatTheErrorsAre) {
     // A mean of 150 chi-squares of two dimensions: 2 +- 0.16.
     EXPECT_NEAR(sum / kThrows, 2.0, 0.5) << "share seen " << seen;
   }
+}
+
+TEST_F(FlightFit, GainSaysWhatErrorsOfTheCamerasDo) {
+  FlightEstimate flight;
+  const auto estimate = landed(observe(0), &flight);
+  ASSERT_TRUE(estimate);
+  ASSERT_EQ(flight.gains.size(), 2u);
+  const std::vector<model::Camera> assumed = cameras_;
+  const CameraConstants sizes =
+      (CameraConstants() << 0.02, 0.02, 1e-4, 1e-4, 1e-4, 2e-4, 2e-4, 2e-4, 1e-4).finished();
+  for (std::size_t camera = 0; camera < 2; ++camera) {
+    for (int i = 0; i < kCameraConstants; ++i) {
+      const CameraConstants error = sizes[i] * CameraConstants::Unit(i);
+      cameras_[camera] = displaced(assumed[camera], error);
+      std::vector<Observation> observations = observe(0);
+      for (Observation& o : observations)
+        if (o.camera == static_cast<int>(camera))
+          o.centre += error.head<2>();
+      cameras_ = assumed;
+      FlightEstimate moved;
+      const auto landing = landed(observations, &moved);
+      ASSERT_TRUE(landing);
+      FlightVector change;
+      change << moved.start.p_WBall - flight.start.p_WBall,
+          moved.start.v_WBall - flight.start.v_WBall, moved.drag - flight.drag;
+      const FlightVector expected = flight.gains[camera] * error;
+      EXPECT_LT((change - expected).norm(), 0.03 * expected.norm() + 2e-6)
+          << "camera " << camera << " constant " << i;
+      EXPECT_LT((landing->landing - estimate->landing - estimate->gains[camera] * error).norm(),
+                0.03 * (landing->landing - estimate->landing).norm() + 2e-6);
+    }
+  }
+}
+
+TEST_F(FlightFit, CovarianceIsNoiseAndConstants) {
+  prior_.calibration = {1e-3, 2e-3, 1e-3};
+  FlightEstimate flight;
+  const auto estimate = landed(observe(kSigma), &flight);
+  ASSERT_TRUE(estimate);
+  FlightCovariance cov = flight.noise_cov;
+  Eigen::Matrix2d landing_cov = estimate->noise_cov;
+  const CameraConstants variances = constantVariances(prior_.bias_sigma, prior_.calibration);
+  for (std::size_t i = 0; i < 2; ++i) {
+    cov += flight.gains[i] * variances.asDiagonal() * flight.gains[i].transpose();
+    landing_cov += estimate->gains[i] * variances.asDiagonal() * estimate->gains[i].transpose();
+  }
+  EXPECT_LT((cov - flight.cov).norm(), 1e-9 * cov.norm());
+  EXPECT_LT((landing_cov - estimate->cov).norm(), 1e-9 * landing_cov.norm());
+  // Nothing of the calibration is in the noise's part.
+  prior_.calibration = {};
+  prior_.bias_sigma = 0;
+  const auto ideal = fitFlight(observe(0), 0, cameras_, prior_, guess(), 5000000);
+  ASSERT_TRUE(ideal);
+  EXPECT_LT((ideal->cov - ideal->noise_cov).norm(), 1e-12 * ideal->cov.norm());
+  EXPECT_LT(estimate->noise_cov.trace(), 0.5 * estimate->cov.trace());
 }
 
 TEST_F(FlightFit, CutsOutliers) {

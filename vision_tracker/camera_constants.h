@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/camera.h"
+
+namespace fastball::vision_tracker {
+
+/// How far one camera, and what is measured in its images, is from what is assumed of it, the same through a flight:
+/// bias of the centres [px] (2); rotation of the camera [rad] (3), R_CW true = exp([rotation]x) R_CW assumed; position of the
+/// camera [m] in the world (3); focal length, relative (1). True minus assumed.
+constexpr int kCameraConstants = 9;
+using CameraConstants = Eigen::Matrix<double, kCameraConstants, 1>;
+
+/// How well each camera's calibration is known: standard deviations per axis.
+struct CalibrationSigma {
+  double rotation = 0;      ///< [rad]
+  double position = 0;      ///< [m]
+  double focal_length = 0;  ///< relative
+};
+
+/// Variances of one camera's constants. @param bias_sigma [px]
+CameraConstants constantVariances(double bias_sigma, const CalibrationSigma& calibration);
+
+/// d centre / d constants, of a point or outline at p_W whose centre lies at pixel `centre`.
+/// @param projection d centre / d p_W
+Eigen::Matrix<double, 2, kCameraConstants> byConstants(
+    const model::Camera& camera,
+    const Eigen::Vector3d& p_W,
+    const Eigen::Vector2d& centre,
+    const Eigen::Matrix<double, 2, 3>& projection);
+
+/// The camera that is meant if `camera` is assumed; the bias has no part in it.
+model::Camera displaced(const model::Camera& camera, const CameraConstants& constants);
+
+}  // namespace fastball::vision_tracker
