@@ -14,6 +14,7 @@
 #include "launch/commands.h"
 #include "messaging/process.h"
 #include "vision_tracker/config.h"
+#include "vision_tracker/flight_landing.h"
 #include "vision_tracker/video_track.h"
 
 namespace fastball::launch {
