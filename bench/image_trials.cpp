@@ -49,11 +49,16 @@ ImageTrial imageTrial(const sim_bullet::CameraRigOptions& cameras,
   }
   tracker.begin(experiment.target);
   ImageTrial trial;
+  cv::Mat decoded;
   for (const sim_bullet::RenderedImage& image : renderThrow(rig, experiment, made, seed)) {
     const auto start = std::chrono::steady_clock::now();
     const double worked = workedSeconds();
-    const vision_tracker::Sighting sighting =
-        tracker.add(image.camera, image.utime, cv::imdecode(image.jpeg, cv::IMREAD_GRAYSCALE));
+    vision_tracker::Sighting sighting;
+    // As the process does: after the landing no image is decoded.
+    if (tracker.state() != vision_tracker::ThrowTracker::State::kLanded) {
+      cv::imdecode(image.jpeg, cv::IMREAD_GRAYSCALE, &decoded);
+      sighting = tracker.add(image.camera, image.utime, decoded);
+    }
     trial.image_seconds.push_back(workedSeconds() - worked);
     if (const auto landing = tracker.takeLanding()) {
       trial.report = *landing;

@@ -18,27 +18,36 @@ int rateShift(int visit) {
   return shift;
 }
 
-/// One stretch of a row. No branch, so that the compiler makes vector instructions of it.
-void learnStretch(const uint8_t* image,
-                  int16_t* mean,
-                  int16_t* candidate,
-                  int16_t* still,
+/// One of two values by a mask of no bits or all.
+inline int16_t chosen(int16_t mask, int16_t yes, int16_t no) {
+  return static_cast<int16_t>((mask & yes) | (~mask & no));
+}
+
+/// No bits, or all if x lies within +-limit.
+inline int16_t within(int16_t x, int16_t limit) {
+  return static_cast<int16_t>(-((x <= limit) & (x >= -limit)));
+}
+
+/// One stretch of a row. Masks instead of branches, and no two pointers to one place, so that the compiler makes vector
+/// instructions of it.
+void learnStretch(const uint8_t* __restrict image,
+                  int16_t* __restrict mean,
+                  int16_t* __restrict candidate,
+                  int16_t* __restrict still,
                   int count,
                   int shift) {
   for (int i = 0; i < count; ++i) {
     const auto grey = static_cast<int16_t>(image[i]);
     const auto wide = static_cast<int16_t>(grey << 7);
     const auto difference = static_cast<int16_t>(wide - mean[i]);
-    const bool same = difference <= kTolerance * Background::kScale &&
-                      difference >= -kTolerance * Background::kScale;
-    const auto change = static_cast<int16_t>(grey - candidate[i]);
-    const bool stands = change <= kTolerance && change >= -kTolerance;
-    const auto visits = static_cast<int16_t>(stands ? still[i] + 1 : 1);
-    const bool adopt = !same && visits >= kStillVisits;
+    const int16_t same = within(difference, kTolerance * Background::kScale);
+    const int16_t stands = within(static_cast<int16_t>(grey - candidate[i]), kTolerance);
+    const auto visits = static_cast<int16_t>((still[i] & stands) + 1);
+    const auto adopt = static_cast<int16_t>(~same & -(visits >= kStillVisits));
     const auto followed = static_cast<int16_t>(mean[i] + (difference >> shift));
-    mean[i] = same ? followed : (adopt ? wide : mean[i]);
+    mean[i] = chosen(same, followed, chosen(adopt, wide, mean[i]));
     candidate[i] = grey;
-    still[i] = same || adopt ? int16_t{0} : visits;
+    still[i] = static_cast<int16_t>(~(same | adopt) & visits);
   }
 }
 
@@ -48,7 +57,7 @@ void Background::reset() {
   images_ = 0;
 }
 
-void Background::learn(const cv::Mat& image, const cv::Rect& leave) {
+void Background::learn(const cv::Mat& image, const cv::Rect& leave, const cv::Rect& only) {
   if (images_++ == 0) {
     image.convertTo(mean_, CV_16S, kScale);
     image.convertTo(candidate_, CV_16S);
@@ -56,20 +65,19 @@ void Background::learn(const cv::Mat& image, const cv::Rect& leave) {
     return;
   }
   const int shift = rateShift(images_ / 2);
-  const cv::Rect hole = leave & cv::Rect(0, 0, image.cols, image.rows);
-  for (int v = images_ % 2; v < image.rows; v += 2) {
-    const auto* row = image.ptr<uint8_t>(v);
-    auto* mean = mean_.ptr<int16_t>(v);
-    auto* candidate = candidate_.ptr<int16_t>(v);
-    auto* still = still_.ptr<int16_t>(v);
-    const bool with_hole = v >= hole.y && v < hole.y + hole.height;
-    const int end = with_hole ? hole.x : image.cols;
-    learnStretch(row, mean, candidate, still, end, shift);
-    if (with_hole) {
-      const int start = hole.x + hole.width;
-      learnStretch(row + start, mean + start, candidate + start, still + start, image.cols - start,
+  const cv::Rect all(0, 0, image.cols, image.rows);
+  const cv::Rect part = only.empty() ? all : only & all;
+  const cv::Rect hole = leave & part;
+  for (int v = part.y + (images_ + part.y) % 2; v < part.y + part.height; v += 2) {
+    const auto stretch = [&](int from, int to) {
+      learnStretch(image.ptr<uint8_t>(v) + from, mean_.ptr<int16_t>(v) + from,
+                   candidate_.ptr<int16_t>(v) + from, still_.ptr<int16_t>(v) + from, to - from,
                    shift);
-    }
+    };
+    const bool with_hole = v >= hole.y && v < hole.y + hole.height;
+    stretch(part.x, with_hole ? hole.x : part.x + part.width);
+    if (with_hole)
+      stretch(hole.x + hole.width, part.x + part.width);
   }
 }
 

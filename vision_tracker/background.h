@@ -14,8 +14,9 @@ class Background {
   /// Fixed-point unit of mean(): 1 grey level is 128.
   static constexpr int kScale = 128;
 
-  /// Learns from an image (CV_8U; every one of the same size); every other row in turn. Pixels in `leave` are not touched.
-  void learn(const cv::Mat& image, const cv::Rect& leave);
+  /// Learns from an image (CV_8U; every one of the same size); every other row in turn. Pixels in `leave` are not touched, nor
+  /// those outside of `only`, unless it is empty.
+  void learn(const cv::Mat& image, const cv::Rect& leave, const cv::Rect& only = {});
   /// How many images have been learned from.
   int images() const { return images_; }
   /// CV_16S, the still scene in 1/128 grey level.

@@ -36,9 +36,14 @@ cv::Mat foreground(const cv::Mat& image, const cv::Mat& mean, double threshold, 
 }
 
 std::vector<Blob> blobsOf(const cv::Mat& mask, int stride, double least_area, double most_area) {
-  cv::Mat labels, stats, centres;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 4, CV_16U);
   std::vector<Blob> blobs;
+  // Most of the image stands still: label what lies around the foreground only.
+  const cv::Rect around = cv::boundingRect(mask);
+  if (around.empty())
+    return blobs;
+  cv::Mat labels, stats, centres;
+  const int count =
+      cv::connectedComponentsWithStats(mask(around), labels, stats, centres, 4, CV_16U);
   for (int i = 1; i < count; ++i) {
     const double pixels = stats.at<int>(i, cv::CC_STAT_AREA);
     const double width = stats.at<int>(i, cv::CC_STAT_WIDTH),
@@ -49,7 +54,9 @@ std::vector<Blob> blobsOf(const cv::Mat& mask, int stride, double least_area, do
     blob.roundness = std::abs(std::log(fill / (kPi / 4))) + std::abs(std::log(width / height));
     if (blob.area < least_area || blob.area > most_area || blob.roundness > 0.7)
       continue;
-    blob.centre = Eigen::Vector2d(centres.at<double>(i, 0), centres.at<double>(i, 1)) * stride;
+    blob.centre =
+        Eigen::Vector2d(around.x + centres.at<double>(i, 0), around.y + centres.at<double>(i, 1)) *
+        stride;
     blobs.push_back(blob);
   }
   std::stable_sort(blobs.begin(), blobs.end(),

@@ -28,6 +28,10 @@ constexpr double kUnevenShare = 0.05;  // of the contrast, beside that
 
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
+/// With one zero behind, for vector instructions.
+constexpr int kPadded = kParameters + kParameters % 2;
+using PaddedParameters = Eigen::Matrix<double, kPadded, 1>;
+using PaddedNormal = Eigen::Matrix<double, kPadded, kPadded>;
 using Monomials = Eigen::Matrix<double, kCubic, 1>;
 
 /// A pixel near the ball, with what does not change from step to step.
@@ -35,6 +39,7 @@ struct Pixel {
   Eigen::Vector2d place;  ///< [px]
   double grey = 0;        ///< [grey levels]
   double background = 0;  ///< [grey levels]
+  double inside = 0;      ///< [px], distance from the first outline, positive within
   Monomials monomials;    ///< of its place in the first disc
 };
 
@@ -57,65 +62,83 @@ struct Edge {
 };
 
 /// `unit_inverse` maps the outline divided by its mean radius onto the unit circle.
-Edge edgeAt(const Eigen::Vector2d& offset, double radius, const Eigen::Matrix2d& unit_inverse) {
+[[gnu::always_inline]] inline Edge edgeAt(const Eigen::Vector2d& offset,
+                                          double radius,
+                                          const Eigen::Matrix2d& unit_inverse) {
   Edge edge;
-  const Eigen::Vector2d w = unit_inverse * offset / radius;
-  const double rho = w.norm();
-  edge.w = w;
-  edge.w_x << -unit_inverse / radius, -w / radius;
+  const double curvature = 1 / radius;
+  edge.w = curvature * (unit_inverse * offset);
+  const double rho = edge.w.norm();
+  edge.w_x << -curvature * unit_inverse, -curvature * edge.w;
   if (rho < 0.05) {
     edge.inside = radius;
     edge.outward = Eigen::Vector2d::UnitX();
-    edge.slope = 1 / radius;
+    edge.slope = curvature;
     return edge;
   }
-  const Eigen::Vector2d gradient = unit_inverse.transpose() * w / (rho * radius);
+  const Eigen::Vector2d gradient = (curvature / rho) * (unit_inverse.transpose() * edge.w);
   edge.slope = gradient.norm();
-  edge.inside = (1 - rho) / edge.slope;
-  edge.outward = gradient / edge.slope;
-  edge.per_radius = rho / (radius * edge.slope);
+  const double per_slope = 1 / edge.slope;  // one division for all
+  edge.inside = (1 - rho) * per_slope;
+  edge.outward = per_slope * gradient;
+  edge.per_radius = rho * curvature * per_slope;
   return edge;
 }
 
-/// The blurred root g(s) = E sqrt(max(0, s + z)) of a standard normal z, and its derivative.
-class BlurredRoot {
+/// What a blur makes of an edge at a distance of s standard deviations, with a standard normal z.
+struct BlurredEdge {
+  double share = 0;    ///< P(s + z > 0)
+  double density = 0;  ///< its derivative
+  double root = 0;     ///< E sqrt(max(0, s + z))
+  double root_s = 0;   ///< its derivative
+};
+
+/// Tables of them: cubics between entries, by values and slopes, good to 1e-6.
+class BlurTable {
  public:
-  BlurredRoot() {
+  BlurTable() {
     for (int i = 0; i <= kEntries; ++i) {
+      const double s = kLowest + i * kSpacing;
+      const double density = normalDensity(s);
+      share_[i] = {0.5 * std::erfc(-s * 0.70710678118654752), density};
+      density_[i] = {density, -s * density};
       // With s + z = y^2 the integrand is smooth.
       constexpr double kDy = 0.01;
-      const double s = kLowest + i * kSpacing;
       for (double y = kDy; y < 4.5; y += kDy) {
         const double z = y * y - s;
-        const double density = 0.3989422804014327 * std::exp(-0.5 * z * z) * 2 * y * kDy;
-        value_[i] += density * y;
-        slope_[i] += density * y * z;
+        const double weight = normalDensity(z) * 2 * y * kDy;
+        root_[i].value += weight * y;
+        root_[i].slope += weight * y * z;
       }
     }
   }
-  double at(double s, double& slope) const {
+  BlurredEdge at(double s) const {
     if (s >= kHighest) {
       const double root = std::sqrt(s);
-      slope = 0.5 / root;
-      return root * (1 - 1 / (8 * s * s));
+      return {1, 0, root * (1 - 1 / (8 * s * s)), 0.5 / root};
     }
-    if (s <= kLowest) {
-      slope = 0;
-      return 0;
-    }
-    // Cubic between two entries, by their values and slopes.
-    const double place = (s - kLowest) / kSpacing;
+    if (s <= kLowest)
+      return {};
+    const double place = (s - kLowest) * kPerSpacing;
     const int i = std::min(static_cast<int>(place), kEntries - 1);
     const double t = place - i, rest = 1 - t;
-    slope = rest * slope_[i] + t * slope_[i + 1];
-    return rest * rest * (1 + 2 * t) * value_[i] + t * t * (3 - 2 * t) * value_[i + 1] +
-           kSpacing * t * rest * (rest * slope_[i] - t * slope_[i + 1]);
+    const auto cubic = [&](const Entry* e) {
+      return rest * rest * (1 + 2 * t) * e[i].value + t * t * (3 - 2 * t) * e[i + 1].value +
+             kSpacing * t * rest * (rest * e[i].slope - t * e[i + 1].slope);
+    };
+    return {cubic(share_), cubic(density_), cubic(root_),
+            rest * root_[i].slope + t * root_[i + 1].slope};
   }
 
  private:
+  struct Entry {
+    double value = 0, slope = 0;
+  };
+  static double normalDensity(double z) { return 0.3989422804014327 * std::exp(-0.5 * z * z); }
+
   static constexpr int kEntries = 120;
-  static constexpr double kLowest = -5, kHighest = 7, kSpacing = 0.1;
-  double value_[kEntries + 1] = {}, slope_[kEntries + 1] = {};
+  static constexpr double kLowest = -5, kHighest = 7, kSpacing = 0.1, kPerSpacing = 10;
+  Entry share_[kEntries + 1], density_[kEntries + 1], root_[kEntries + 1];
 };
 
 /// The normal of a sphere (two axes of the disc, and towards the camera), zero outside of it, as it looks through a blur. At the
@@ -126,27 +149,26 @@ struct BlurredNormal {
   Eigen::Vector3d normal_sigma;  ///< [1/px], d normal / d sigma
 };
 
-/// @param s distance inside of the outline over the blur's `sigma` [px]; share and density: normal distribution's at s
-BlurredNormal blurredNormal(const Edge& edge,
-                            double s,
-                            double sigma,
-                            double share,
-                            double density) {
-  static const BlurredRoot root;
+/// @param s distance inside of the outline over the blur's `sigma` [px]
+inline BlurredNormal blurredNormal(const Edge& edge,
+                                   double s,
+                                   double sigma,
+                                   const BlurredEdge& blurred) {
+  const double share = blurred.share, density = blurred.density, per_sigma = 1 / sigma;
   const Eigen::RowVector3d inside_x(edge.outward.x(), edge.outward.y(), edge.per_radius);
   const Eigen::Vector2d outwards = -edge.w_x.leftCols<2>() * edge.outward;  // d w / d distance
   const double rho = std::max(0.0, 1 - edge.inside * edge.slope);
   // sqrt(1 - rho^2) = sqrt(1 + rho) sqrt(slope sigma) sqrt(s)
-  double root_s = 0;
   const double stretch = std::sqrt((1 + rho) * edge.slope * sigma);
-  const double facing = stretch * root.at(s, root_s);
+  const double facing = stretch * blurred.root;
+  const double facing_inside = stretch * blurred.root_s * per_sigma;
   BlurredNormal n;
   n.normal << share * edge.w - sigma * density * outwards, facing;
   n.normal_x.topRows<2>() =
-      density / sigma * (edge.w + s * sigma * outwards) * inside_x + share * edge.w_x;
-  n.normal_x.row(2) = (stretch * root_s / sigma - facing * edge.slope / (2 * (1 + rho))) * inside_x;
-  n.normal_sigma << -density * s / sigma * edge.w - density * (1 + s * s) * outwards,
-      facing / (2 * sigma) - stretch * root_s * s / sigma;
+      density * per_sigma * (edge.w + s * sigma * outwards) * inside_x + share * edge.w_x;
+  n.normal_x.row(2) = (facing_inside - facing * edge.slope / (2 * (1 + rho))) * inside_x;
+  n.normal_sigma << -density * per_sigma * s * edge.w - density * (1 + s * s) * outwards,
+      facing / 2 * per_sigma - facing_inside * s;
   return n;
 }
 
@@ -165,20 +187,33 @@ std::vector<Pixel> pixelsNear(const cv::Mat& image,
   for (int v = static_cast<int>(low.y()); v <= static_cast<int>(high.y()); ++v) {
     for (int u = static_cast<int>(low.x()); u <= static_cast<int>(high.x()); ++u) {
       const Eigen::Vector2d offset = Eigen::Vector2d(u, v) - outline.centre;
-      if (edgeAt(offset, radius, unit_inverse).inside < -kRim - 0.5)
+      const Edge edge = edgeAt(offset, radius, unit_inverse);
+      if (edge.inside < -kRim - 0.5)
         continue;
       pixels.push_back({{u, v},
                         static_cast<double>(image.at<uint8_t>(v, u)),
                         static_cast<double>(background.at<int16_t>(v, u)) / Background::kScale,
-                        monomialsOf(unit_inverse * offset / radius)});
+                        edge.inside,
+                        monomialsOf(edge.w)});
     }
   }
   return pixels;
 }
 
+/// Adds row row^T: the lower triangle, and what little lies above it in panels of six columns.
+void addSquare(const PaddedParameters& row, PaddedNormal& sum) {
+  constexpr int kPanel = 6;
+  static_assert(kPadded == 3 * kPanel, "three panels");
+  sum.leftCols<kPanel>().noalias() += row * row.head<kPanel>().transpose();
+  sum.bottomRows<2 * kPanel>().middleCols<kPanel>(kPanel).noalias() +=
+      row.tail<2 * kPanel>() * row.segment<kPanel>(kPanel).transpose();
+  sum.bottomRightCorner<kPanel, kPanel>().noalias() +=
+      row.tail<kPanel>() * row.tail<kPanel>().transpose();
+}
+
 /// The normal equations of one step.
 struct Equations {
-  Normal information = Normal::Zero();
+  Normal information = Normal::Zero();  ///< lower triangle
   Parameters gradient = Parameters::Zero();
   double square_sum = 0;  ///< of the residuals
   double cost = 0;        ///< that, and what was known before
@@ -227,20 +262,24 @@ class Fit {
   }
 
   double moved() const { return moved_; }
+  /// The equations before the last step, which was a small one.
+  const Equations& best() const { return best_; }
   const Parameters& parameters() const { return x_; }
 
   Equations equations(double noise) const {
+    static const BlurTable table;
     Equations e;
+    PaddedNormal squares = PaddedNormal::Zero();
     for (const Pixel& pixel : pixels_) {
       const Edge edge = edgeAt(pixel.place - x_.head<2>(), x_[2], unit_inverse_);
       // Motion widens the blur across the parts of the outline that face it: a box has a variance of 1/12.
       const double smear = edge.outward.dot(guess_.motion);
       const double sigma = std::sqrt(x_[3] * x_[3] + smear * smear / 12);
       const double s = edge.inside / sigma;
-      const double share = s > 5 ? 1 : s < -5 ? 0 : 0.5 * std::erfc(-s * 0.70710678118654752);
-      const double density = std::abs(s) > 5 ? 0 : 0.3989422804014327 * std::exp(-0.5 * s * s);
+      const BlurredEdge at_edge = table.at(s);
+      const double share = at_edge.share, slope = at_edge.density / sigma;
       const Eigen::Vector3d lamp = x_.tail<kLamp>();
-      const BlurredNormal blurred = blurredNormal(edge, s, sigma, share, density);
+      const BlurredNormal blurred = blurredNormal(edge, s, sigma, at_edge);
       const bool lit = blurred.normal.dot(lamp) > 0;
       const double ground = pixel.monomials.dot(x_.segment<kCubic>(4)) - pixel.background;
       const double ball = share * ground + (lit ? blurred.normal.dot(lamp) : 0.0);
@@ -252,21 +291,23 @@ class Fit {
       }
       if (share == 0)
         continue;
-      Parameters row;
-      row.head<2>() = density / sigma * ground * edge.outward;
-      row[2] = density / sigma * ground * edge.per_radius;
-      row[3] = -density / sigma * s * ground * x_[3] / sigma;
+      PaddedParameters row;
+      row.head<2>() = slope * ground * edge.outward;
+      row[2] = slope * ground * edge.per_radius;
+      row[3] = -slope * s * ground * x_[3] / sigma;
       row.segment<kCubic>(4) = share * pixel.monomials;
       if (lit) {
         row.head<3>() += blurred.normal_x.transpose() * lamp;
         row[3] += blurred.normal_sigma.dot(lamp) * x_[3] / sigma;
-        row.tail<kLamp>() = blurred.normal;
+        row.segment<kLamp>(4 + kCubic) = blurred.normal;
       } else {
-        row.tail<kLamp>().setZero();
+        row.segment<kLamp>(4 + kCubic).setZero();
       }
-      e.information.noalias() += row * row.transpose();
-      e.gradient += residual * row;
+      row[kPadded - 1] = 0;
+      addSquare(row, squares);
+      e.gradient += residual * row.head<kParameters>();
     }
+    e.information = squares.topLeftCorner<kParameters, kParameters>();
     // What was known before of radius, blur and shading, and a breath of damping for what the pixels do not show.
     const double weight = noise * noise / (guess_.radius_sigma * guess_.radius_sigma);
     e.information(2, 2) += weight;
@@ -289,7 +330,7 @@ class Fit {
     std::vector<double> greys;
     double differences = 0;
     for (const Pixel& pixel : pixels_) {
-      if (edgeAt(pixel.place - x_.head<2>(), x_[2], unit_inverse_).inside > 1) {
+      if (pixel.inside > 1) {
         greys.push_back(pixel.grey);
         differences += std::abs(pixel.grey - pixel.background);
       }
@@ -302,11 +343,10 @@ class Fit {
     Eigen::Matrix4d information = 1e-2 * Eigen::Matrix4d::Identity();
     Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
     for (const Pixel& pixel : pixels_) {
-      const Edge edge = edgeAt(pixel.place - x_.head<2>(), x_[2], unit_inverse_);
-      if (edge.inside <= 1 || pixel.grey < *middle)
+      if (pixel.inside <= 1 || pixel.grey < *middle)
         continue;
-      const double facing = std::sqrt(std::max(0.0, 1 - edge.w.squaredNorm()));
-      const Eigen::Vector4d row(1, edge.w.x(), edge.w.y(), facing);
+      const Eigen::Vector2d w = pixel.monomials.segment<2>(1);
+      const Eigen::Vector4d row(1, w.x(), w.y(), std::sqrt(std::max(0.0, 1 - w.squaredNorm())));
       information += row * row.transpose();
       gradient += pixel.grey * row;
     }
@@ -354,7 +394,7 @@ BallFit fitBall(const cv::Mat& image,
   }
   result.centre = fit.parameters().head<2>();
   result.radius = fit.parameters()[2];
-  const Equations e = fit.equations(noise);
+  const Equations& e = fit.best();
   const auto count = static_cast<double>(pixels.size());
   result.residual = std::sqrt(e.square_sum / count);
   result.contrast = e.contrast_sum / std::max(1.0, e.inside_count);

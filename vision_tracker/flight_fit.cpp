@@ -9,24 +9,13 @@ constexpr int kIterations = 15;
 constexpr int kRobustIterations = 2;  // with Huber's weights, before anything is cut
 constexpr std::size_t kLeastObservations = 8;
 
-}  // namespace
-
-std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observations,
-                                        std::size_t first,
-                                        const std::vector<model::Camera>& cameras,
-                                        const FlightPrior& prior,
-                                        const model::BallState& guess,
-                                        int64_t guess_utime) {
-  if (observations.size() < first + kLeastObservations)
-    return std::nullopt;
-  FlightProblem problem(observations, first, cameras, prior);
-  problem.start(
-      model::fly(guess, seconds(guess_utime, problem.utime()), prior.drag, prior.gravity));
+/// Steps until they are small. @param robust so many with Huber's weights before anything is cut
+std::optional<FlightEstimate> solved(FlightProblem& problem, int robust) {
   for (int i = 0; i < kIterations; ++i) {
     if (!problem.evaluate())
       return std::nullopt;
     FlightVector change;
-    const bool cutting = i >= kRobustIterations;
+    const bool cutting = i >= robust;
     const FlightCovariance information = problem.step(cutting, &change);
     if (!change.allFinite())
       return std::nullopt;
@@ -39,6 +28,34 @@ std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observat
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observations,
+                                        std::size_t first,
+                                        const std::vector<model::Camera>& cameras,
+                                        const FlightPrior& prior,
+                                        const model::BallState& guess,
+                                        int64_t guess_utime) {
+  if (observations.size() < first + kLeastObservations)
+    return std::nullopt;
+  FlightProblem problem(observations, first, cameras, prior);
+  problem.start(model::fly(guess, seconds(guess_utime, problem.utime()), prior.drag, prior.gravity),
+                prior.drag);
+  return solved(problem, kRobustIterations);
+}
+
+std::optional<FlightEstimate> refitFlight(const std::vector<Observation>& observations,
+                                          std::size_t first,
+                                          const std::vector<model::Camera>& cameras,
+                                          const FlightPrior& prior,
+                                          const FlightEstimate& last) {
+  if (observations.size() < first + kLeastObservations)
+    return std::nullopt;
+  FlightProblem problem(observations, first, cameras, prior);
+  problem.start(last.at(problem.utime(), prior.gravity), last.drag);
+  return solved(problem, 0);
 }
 
 }  // namespace fastball::vision_tracker

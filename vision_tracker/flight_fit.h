@@ -23,4 +23,11 @@ std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observat
                                         const model::BallState& guess,
                                         int64_t guess_utime);
 
+/// The same from a flight that a few observations fewer have given: nothing is far off any more, so it cuts from the first step.
+std::optional<FlightEstimate> refitFlight(const std::vector<Observation>& observations,
+                                          std::size_t first,
+                                          const std::vector<model::Camera>& cameras,
+                                          const FlightPrior& prior,
+                                          const FlightEstimate& last);
+
 }  // namespace fastball::vision_tracker

@@ -27,10 +27,10 @@ FlightProblem::FlightProblem(const std::vector<Observation>& observations,
   residuals_.resize(observations.size() - first);
 }
 
-void FlightProblem::start(const model::BallState& state) {
+void FlightProblem::start(const model::BallState& state, double drag) {
   x_.head<3>() = state.p_WBall;
   x_.segment<3>(3) = state.v_WBall;
-  x_[6] = prior_.drag;
+  x_[6] = drag;
 }
 
 bool FlightProblem::evaluate() {

@@ -21,7 +21,7 @@ class FlightProblem {
 
   /// [us], of the flight's start.
   int64_t utime() const { return observations_[first_].utime; }
-  void start(const model::BallState& state);
+  void start(const model::BallState& state, double drag);
   /// Residuals at the present parameters. False if the flight leaves the space before a camera.
   bool evaluate();
   /// Solves for one step. @param cutting far observations are left out, else they weigh less (Huber)

@@ -97,4 +97,26 @@ std::optional<FlightEstimate> fitFreeFlight(const std::vector<Observation>& obse
   return flight;
 }
 
+std::optional<FreeFlight> followFreeFlight(const std::vector<Observation>& observations,
+                                           const std::vector<model::Camera>& cameras,
+                                           const FlightPrior& prior,
+                                           const FreeFlight& last) {
+  FreeFlight next = last;
+  const bool fresh = 4 * observations.size() < 5 * last.searched;
+  if (fresh && agrees(observations, timesOf(observations).back(), observations.size(), cameras,
+                      prior, last.flight)) {
+    if (const auto flight = refitFlight(observations, last.begin, cameras, prior, last.flight)) {
+      next.flight = *flight;
+      return next;
+    }
+  }
+  const auto flight = fitFreeFlight(observations, cameras, prior, last.flight.start,
+                                    last.flight.utime, &next.begin);
+  if (!flight)
+    return std::nullopt;
+  next.flight = *flight;
+  next.searched = observations.size();
+  return next;
+}
+
 }  // namespace fastball::vision_tracker

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
-#include "vision_tracker/free_flight.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
@@ -20,6 +19,8 @@ constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the 
 constexpr int kSureTrack = 40;           // observations that no arm imitates
 constexpr int kLeastForLanding = 16;     // observations
 constexpr int kMostMisses = 15;          // times
+constexpr int kWayMargin = 40;           // [px], around the predicted way to the plane
+constexpr std::size_t kWayInterval = 8;  // observations, between two looks at it
 
 bool same(const CameraSetup& a, const CameraSetup& b) {
   return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
@@ -57,13 +58,16 @@ void ThrowTracker::begin(const model::Target& target) {
   target_ = target;
   state_ = State::kWaiting;
   finder_.reset();
-  for (Eye& eye : eyes_)
+  for (Eye& eye : eyes_) {
     eye.background.reset();
+    eye.way = {};
+    eye.followed = 0;
+  }
   moment_ = {};
   seen_ = 0;
   known_ = 0;
   observations_.clear();
-  flight_.reset();
+  followed_.reset();
   predicted_.reset();
   misses_ = 0;
   images_ = 0;
@@ -73,7 +77,35 @@ void ThrowTracker::begin(const model::Target& target) {
 }
 
 double ThrowTracker::distanceAt(int64_t utime) const {
-  return target_.distance(flight_->at(utime, options_.prior.gravity).p_WBall);
+  return target_.distance(expectedAt(utime).p_WBall);
+}
+
+model::BallState ThrowTracker::expectedAt(int64_t utime) const {
+  return model::fly(latest_, seconds(latest_utime_, utime), followed_->flight.drag,
+                    options_.prior.gravity);
+}
+
+void ThrowTracker::takeFlight(const FreeFlight& followed) {
+  followed_ = followed;
+  latest_utime_ = observations_.back().utime;
+  latest_ = followed.flight.at(latest_utime_, options_.prior.gravity);
+  predicted_ = landingOf(followed.flight, target_, options_.prior.gravity);
+}
+
+void ThrowTracker::expectWay() {
+  constexpr int kPieces = 8;
+  const double left = predicted_ ? seconds(latest_utime_, predicted_->utime) : 0;
+  for (Eye& eye : eyes_) {
+    eye.way = {};
+    for (int k = 0; k <= kPieces && left > 0; ++k) {
+      const cv::Rect area = eye.detector.area(
+          model::fly(latest_, left * k / kPieces, followed_->flight.drag, options_.prior.gravity)
+              .p_WBall);
+      if (!area.empty())
+        eye.way |=
+            area + cv::Size(2 * kWayMargin, 2 * kWayMargin) - cv::Point(kWayMargin, kWayMargin);
+    }
+  }
 }
 
 Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
@@ -93,11 +125,14 @@ Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
   cv::Rect leave;
   if (eye.background.images() >= kImagesToLearn) {
-    sighting = flight_ ? followIn(camera, utime, image) : searchIn(camera, image);
-    if (flight_)
-      leave = eye.detector.area(flight_->at(utime, options_.prior.gravity).p_WBall);
+    sighting = followed_ ? followIn(camera, utime, image) : searchIn(camera, image);
+    if (followed_)
+      leave = eye.detector.area(expectedAt(utime).p_WBall);
   }
-  eye.background.learn(image, leave);
+  // A track that is sure needs the background on its way only, which was learned before: half as often will do.
+  const bool sure = followed_ && !eye.way.empty();
+  if (!sure || ++eye.followed % 2 == 0)
+    eye.background.learn(image, leave, sure ? eye.way : cv::Rect());
   seen_ |= 1U << camera;
   if (seen_ == (1U << eyes_.size()) - 1)
     closeMoment();
@@ -113,9 +148,9 @@ Sighting ThrowTracker::searchIn(int camera, const cv::Mat& image) {
 
 Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image) {
   const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  const model::BallState expected = flight_->at(utime, options_.prior.gravity);
+  const model::BallState expected = expectedAt(utime);
   // A young track predicts badly, and so does one that has missed the ball.
-  const double uncertainty = (flight_->used < 24 ? 8.0 : 4.0) + 2.0 * misses_;
+  const double uncertainty = (followed_->flight.used < 24 ? 8.0 : 4.0) + 2.0 * misses_;
   const BallFit fit =
       eye.detector.at(image, eye.background, expected.p_WBall, expected.v_WBall, uncertainty);
   if (!fit.converged)
@@ -140,7 +175,7 @@ void ThrowTracker::observe(int64_t utime,
 
 void ThrowTracker::closeMoment() {
   seen_ = 0;
-  if (!flight_) {
+  if (!followed_) {
     if (const auto found = finder_.add(moment_, cameras_))
       startTrack(*found);
     return;
@@ -151,9 +186,9 @@ void ThrowTracker::closeMoment() {
   } else {
     ++misses_;
   }
-  if (flight_ && passed(moment_.utime))
+  if (followed_ && passed(moment_.utime))
     land();
-  else if (flight_ && misses_ > std::min(kMostMisses, 3 + flight_->used / 8))
+  else if (followed_ && misses_ > std::min(kMostMisses, 3 + followed_->flight.used / 8))
     loseTrack();
 }
 
@@ -167,38 +202,43 @@ void ThrowTracker::startTrack(const FlightFinder::Found& found) {
   for (const auto& [utime, point] : found.points)
     for (const int k : {0, 1})
       observe(utime, point.cameras[k], point.fits[k], point.p_W);
-  flight_ = fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
+  const auto flight =
+      fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
   misses_ = 0;
-  if (!flight_) {
+  if (!flight) {
     observations_.clear();
     return;
   }
+  for (Eye& eye : eyes_)
+    eye.way = {};
+  takeFlight({*flight});
   state_ = State::kTracking;
   finder_.reset();
-  predicted_ = landingOf(*flight_, target_, options_.prior.gravity);
 }
 
 void ThrowTracker::updateTrack() {
-  const auto flight = fitFreeFlight(observations_, cameras_, options_.prior, flight_->start,
-                                    flight_->utime, nullptr);
-  if (!flight)
+  const auto followed = followFreeFlight(observations_, cameras_, options_.prior, *followed_);
+  if (!followed)
     return;
-  flight_ = flight;
-  predicted_ = landingOf(*flight_, target_, options_.prior.gravity);
+  takeFlight(*followed);
+  // The prediction of a young track may lead anywhere.
+  if (followed_->flight.used >= kSureTrack &&
+      (observations_.size() % kWayInterval == 0 || eyes_.front().way.empty()))
+    expectWay();
   if (!predicted_)
     return;
   TrackReport report;
   report.utime = observations_.back().utime;
-  report.observations = flight_->used;
-  report.state = flight_->at(report.utime, options_.prior.gravity);
-  report.drag = flight_->drag;
+  report.observations = followed_->flight.used;
+  report.state = latest_;
+  report.drag = followed_->flight.drag;
   report.landing = *predicted_;
   track_report_ = report;
 }
 
 void ThrowTracker::loseTrack() {
   const int64_t last = observations_.back().utime;
-  const bool sure = flight_->used >= kSureTrack;
+  const bool sure = followed_->flight.used >= kSureTrack;
   const double gap = predicted_ ? static_cast<double>(predicted_->utime - last) * 1e-6 : 1e9;
   if (sure && gap <= options_.longest_gap)
     return;  // it is nearly there, and the flight says the rest
@@ -208,7 +248,7 @@ void ThrowTracker::loseTrack() {
     return;
   }
   // Too short to be sure that it was the ball: look for another.
-  flight_.reset();
+  followed_.reset();
   predicted_.reset();
   observations_.clear();
   finder_.reset();
@@ -223,8 +263,8 @@ void ThrowTracker::land() {
         return distanceAt(o.utime) <= kClear * options_.prior.ball_radius;
       });
   observations_.erase(end, observations_.end());
-  const auto flight = fitFreeFlight(observations_, cameras_, options_.prior, flight_->start,
-                                    flight_->utime, nullptr);
+  const auto flight = fitFreeFlight(observations_, cameras_, options_.prior,
+                                    followed_->flight.start, followed_->flight.utime, nullptr);
   const auto landing = flight ? landingOf(*flight, target_, options_.prior.gravity) : std::nullopt;
   if (!landing || flight->used < kLeastForLanding) {
     giveUp(fmt::format("only {} observations agree with a flight, {} are needed",
@@ -239,7 +279,7 @@ void ThrowTracker::land() {
                     gap, options_.longest_gap));
     return;
   }
-  flight_ = flight;
+  followed_ = FreeFlight{*flight};
   predicted_ = landing;
   landing_report_ = LandingReport{true, "", *landing, flight->used, flight->residual_px};
   state_ = State::kLanded;
@@ -260,7 +300,7 @@ void ThrowTracker::end() {
     return;
   if (images_ == 0)
     giveUp("no image came");
-  else if (flight_)
+  else if (followed_)
     giveUp(fmt::format("the images ended when the ball was {:.3f} m before the target plane",
                        distanceAt(observations_.back().utime)));
   else

@@ -10,9 +10,9 @@
 #include "model/target.h"
 #include "vision_tracker/background.h"
 #include "vision_tracker/ball_detector.h"
-#include "vision_tracker/flight_estimate.h"
 #include "vision_tracker/flight_finder.h"
 #include "vision_tracker/flight_landing.h"
+#include "vision_tracker/free_flight.h"
 
 namespace fastball::vision_tracker {
 
@@ -84,6 +84,9 @@ class ThrowTracker {
     CameraSetup setup;
     BallDetector detector;
     Background background;
+    cv::Rect way =
+        {};  ///< where the ball is still to come; the background of the rest no longer matters
+    int followed = 0;  ///< images with such a way
   };
   Sighting searchIn(int camera, const cv::Mat& image);
   Sighting followIn(int camera, int64_t utime, const cv::Mat& image);
@@ -96,6 +99,10 @@ class ThrowTracker {
   void land();
   void giveUp(const std::string& why);
   bool passed(int64_t utime) const;
+  model::BallState expectedAt(int64_t utime) const;
+  void takeFlight(const FreeFlight& followed);
+  /// Where each camera is still to see the ball.
+  void expectWay();
   double distanceAt(int64_t utime) const;
 
   TrackerOptions options_;
@@ -109,11 +116,13 @@ class ThrowTracker {
   unsigned seen_ = 0;      ///< cameras whose image of it has come, one bit each
   std::size_t known_ = 0;  ///< observations before it
   std::vector<Observation> observations_;
-  std::optional<FlightEstimate> flight_;
+  std::optional<FreeFlight> followed_;
   std::optional<LandingEstimate> predicted_;
-  int misses_ = 0;      ///< times in a row without an observation
-  int64_t images_ = 0;  ///< of the throw
-  std::string lost_;    ///< how the last track ended
+  model::BallState latest_;   ///< of the flight, at latest_utime_
+  int64_t latest_utime_ = 0;  ///< [us]
+  int misses_ = 0;            ///< times in a row without an observation
+  int64_t images_ = 0;        ///< of the throw
+  std::string lost_;          ///< how the last track ended
   std::optional<TrackReport> track_report_;
   std::optional<LandingReport> landing_report_;
 };

@@ -91,5 +91,25 @@ TEST(Background, LeavesWhatItIsToldToLeave) {
   EXPECT_GT(cv::norm(before, background.mean(), cv::NORM_INF), 0);
 }
 
+TEST(Background, LearnsOnlyWhereItIsToldTo) {
+  Scene scene;
+  Background background, whole;
+  const cv::Mat first = scene.image();
+  background.learn(first, {});
+  whole.learn(first, {});
+  const cv::Mat before = background.mean().clone();
+  const cv::Rect only(101, 63, 300, 77), leave(150, 80, 40, 200);
+  for (int i = 0; i < 10; ++i) {
+    const cv::Mat image = scene.image();
+    background.learn(image, leave, only);
+    whole.learn(image, leave);
+  }
+  cv::Mat outside = background.mean().clone();
+  before(only).copyTo(outside(only));
+  EXPECT_EQ(cv::norm(before, outside, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(whole.mean()(only), background.mean()(only), cv::NORM_INF), 0);
+  EXPECT_GT(cv::norm(before(only), background.mean()(only), cv::NORM_INF), 0);
+}
+
 }  // namespace
 }  // namespace fastball::vision_tracker

@@ -212,6 +212,35 @@ TEST_F(FlightFit, UsesTheWholeFlightIfAllOfItIsFree) {
   EXPECT_LT(begin, 12u);
 }
 
+TEST_F(FlightFit, FollowedFlightIsThatOfTheFullSearch) {
+  std::vector<Observation> all = observe(kSigma);
+  for (std::size_t i = 0; i < all.size(); i += 23)
+    all[i].centre += Eigen::Vector2d(12, -9);
+  FreeFlight followed;
+  followed.flight.start = guess();
+  followed.flight.utime = 5000000;
+  int searches = 0;
+  for (std::size_t n = 40; n < all.size(); n += 2) {
+    const std::vector<Observation> seen(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
+    const auto next = followFreeFlight(seen, cameras_, prior_, followed);
+    ASSERT_TRUE(next) << n;
+    searches += next->searched != followed.searched ? 1 : 0;
+    followed = *next;
+    const auto whole = refitFlight(seen, followed.begin, cameras_, prior_, followed.flight);
+    ASSERT_TRUE(whole);
+    EXPECT_LT((whole->start.p_WBall - followed.flight.start.p_WBall).norm(), 1e-6) << n;
+    EXPECT_LT((whole->start.v_WBall - followed.flight.start.v_WBall).norm(), 1e-5) << n;
+  }
+  EXPECT_LT(followed.begin, 12u);
+  EXPECT_LT(4 * searches, static_cast<int>(all.size()));
+  const auto searched = fitFreeFlight(all, cameras_, prior_, guess(), 5000000, nullptr);
+  ASSERT_TRUE(searched);
+  const auto a = landingOf(followed.flight, target_, kGravity);
+  const auto b = landingOf(*searched, target_, kGravity);
+  ASSERT_TRUE(a && b);
+  EXPECT_LT((a->landing - b->landing).norm(), std::sqrt(b->cov.trace()));
+}
+
 TEST_F(FlightFit, RefusesTooFewObservations) {
   std::vector<Observation> observations = observe(kSigma);
   observations.resize(7);
