@@ -1,55 +1,181 @@
 #include "logger/log_reader.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <lcm/lcm-cpp.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <exception>
 #include <stdexcept>
 
 namespace fastball::logger {
 namespace {
 
-bool atEnd(std::FILE* file) {
-  const int next = std::fgetc(file);
-  if (next == EOF)
-    return true;
-  std::ungetc(next, file);
-  return false;
+constexpr std::size_t kWindowBytes = 1 << 16;
+
+bool isControlCharacter(char c) {
+  return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
 }
 
 }  // namespace
 
-int readLog(const std::string& path, const std::function<void(const LogEntry&)>& handler) {
-  errno = 0;
-  lcm::LogFile file(path, "r");
-  if (!file.good())
-    throw std::invalid_argument(
-        fmt::format("cannot read the log file '{}': {}", path, std::strerror(errno)));
-  int damaged = 0;
-  int64_t messages = 0;
-  LogEntry entry;
-  for (;;) {
-    const lcm::LogEvent* event = file.readNextEvent();
-    if (!event) {
-      // The reader gives up at a bad record, and finds the next good one when it is asked again.
-      if (atEnd(file.getFilePtr()))
-        break;
-      ++damaged;
+LogReader::LogReader(std::string path) : path_(std::move(path)) {
+  const auto refuse = [this](const char* reason) {
+    throw std::invalid_argument(fmt::format("cannot read the log file '{}': {}", path_, reason));
+  };
+  file_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat status {};
+  if (file_ < 0 || fstat(file_, &status) != 0)
+    refuse(std::strerror(errno));
+  if (!S_ISREG(status.st_mode))
+    refuse("it is no regular file");
+  file_bytes_ = status.st_size;
+}
+
+void LogReader::rewind() {
+  offset_ = 0;
+  damages_.clear();
+  damage_count_ = 0;
+  damaged_bytes_ = 0;
+}
+
+LogReader::~LogReader() {
+  if (file_ >= 0)
+    close(file_);
+}
+
+std::size_t LogReader::readFile(int64_t offset, char* bytes, std::size_t size) const {
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t n = pread(file_, bytes + done, size - done, offset + static_cast<int64_t>(done));
+    if (n < 0 && errno == EINTR)
       continue;
-    }
-    ++messages;
-    entry.utime = event->timestamp;
-    entry.channel = event->channel;
-    const char* data = static_cast<const char*>(event->data);
-    entry.data.assign(data, data + event->datalen);
-    handler(entry);
+    if (n < 0)
+      throw std::runtime_error(
+          fmt::format("cannot read '{}' at byte {}: {}", path_, offset, std::strerror(errno)));
+    if (n == 0)
+      break;
+    done += static_cast<std::size_t>(n);
   }
+  return done;
+}
+
+/// Copies up to `size` bytes. @return how many there are.
+std::size_t LogReader::readAt(int64_t offset, char* bytes, std::size_t size) {
+  if (size > kWindowBytes)
+    return readFile(offset, bytes, size);
+  const auto ahead = static_cast<std::size_t>(offset - window_offset_);
+  if (offset < window_offset_ || ahead + size > window_.size()) {
+    window_.resize(kWindowBytes);
+    window_.resize(readFile(offset, window_.data(), window_.size()));
+    window_offset_ = offset;
+    return readWindow(0, bytes, size);
+  }
+  return readWindow(ahead, bytes, size);
+}
+
+std::size_t LogReader::readWindow(std::size_t ahead, char* bytes, std::size_t size) const {
+  const std::size_t n = std::min(size, window_.size() - ahead);
+  std::copy_n(window_.data() + ahead, n, bytes);
+  return n;
+}
+
+/// True if what stands there can be a whole record: a header, a channel that is a name, and an end within the file.
+bool LogReader::headerAt(int64_t offset, RecordHeader& header, std::string& channel) {
+  std::array<char, kHeaderBytes> bytes{};
+  if (readAt(offset, bytes.data(), bytes.size()) < bytes.size() ||
+      !parseHeader(bytes.data(), header) ||
+      offset + static_cast<int64_t>(header.recordBytes()) > file_bytes_)
+    return false;
+  channel.resize(header.channel_bytes);
+  return readAt(offset + static_cast<int64_t>(kHeaderBytes), channel.data(), channel.size()) ==
+             channel.size() &&
+         std::none_of(channel.begin(), channel.end(), isControlCharacter);
+}
+
+bool LogReader::beginsRecord(int64_t offset) {
+  RecordHeader header;
+  std::string channel;
+  return headerAt(offset, header, channel);
+}
+
+bool LogReader::next(LogEntry& entry) {
+  while (offset_ < file_bytes_) {
+    const int64_t from = offset_;
+    if (takeRecord(entry))
+      return true;
+    skipDamage(from);
+  }
+  return false;
+}
+
+/// Takes the record at offset_ if it is one. Where no record follows it, either its own length is damaged or what comes next is;
+/// the numbering tells: if the next record that can be found has the number after this one's, nothing lies between.
+bool LogReader::takeRecord(LogEntry& entry) {
+  RecordHeader header;
+  if (!headerAt(offset_, header, entry.channel))
+    return false;
+  const int64_t end = offset_ + static_cast<int64_t>(header.recordBytes());
+  entry.utime = header.utime;
+  entry.data.resize(header.data_bytes);
+  if (readAt(end - static_cast<int64_t>(header.data_bytes), entry.data.data(), entry.data.size()) <
+      entry.data.size())
+    return false;
+  if (end < file_bytes_ && !beginsRecord(end)) {
+    const int64_t found = findRecord(offset_ + static_cast<int64_t>(kSyncWord.size()));
+    RecordHeader following;
+    std::string channel;
+    if (found < end || (found < file_bytes_ && headerAt(found, following, channel) &&
+                        following.number == header.number + 1))
+      return false;
+  }
+  offset_ = end;
+  return true;
+}
+
+void LogReader::skipDamage(int64_t from) {
+  offset_ = findRecord(from + 1);
+  ++damage_count_;
+  damaged_bytes_ += offset_ - from;
+  if (damages_.size() < kMaxDamages)
+    damages_.push_back({from, offset_ - from});
+}
+
+/// @return where the first record at or after `from` begins, or the end of the file.
+int64_t LogReader::findRecord(int64_t from) {
+  std::vector<char> window(kWindowBytes);
+  while (from < file_bytes_) {
+    const std::size_t n = readAt(from, window.data(), window.size());
+    if (n < kHeaderBytes)
+      break;
+    const auto end = window.begin() + static_cast<std::ptrdiff_t>(n);
+    auto candidate = window.begin();
+    for (;; ++candidate) {
+      candidate = std::search(candidate, end, kSyncWord.begin(), kSyncWord.end());
+      if (candidate == end)
+        break;
+      const int64_t offset = from + (candidate - window.begin());
+      if (beginsRecord(offset))
+        return offset;
+    }
+    // A sync word may lie across the edge of the window.
+    from += static_cast<int64_t>(n - (kSyncWord.size() - 1));
+  }
+  return file_bytes_;
+}
+
+int readLog(const std::string& path, const std::function<void(const LogEntry&)>& handler) {
+  LogReader reader(path);
+  LogEntry entry;
+  int64_t messages = 0;
+  for (; reader.next(entry); ++messages)
+    handler(entry);
   if (messages == 0)
     throw std::invalid_argument(fmt::format("'{}' holds no LCM message", path));
-  return damaged;
+  return reader.damageCount();
 }
 
 }  // namespace fastball::logger

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "logger/record_format.h"
+
 namespace fastball::logger {
 
 /// One recorded message, still encoded.
@@ -21,9 +23,60 @@ struct LogEntry {
   }
 };
 
-/// Calls `handler` for every message of a log, in the order of the file. A damaged record is stepped over,
-/// and with it the one before: LCM's reader takes a record only if the next one begins soundly.
-/// @return how often the reader had to step over something.
+/// Reads a log from front to back and finds its way again after damage: every record that is whole is read. LCM's own reader is
+/// not used because it gives up the record before a damaged one too. Needs memory for one record, whatever the file says.
+class LogReader {
+ public:
+  /// @throw std::invalid_argument if the file cannot be read; names path and reason.
+  explicit LogReader(std::string path);
+  ~LogReader();
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+
+  /// @return false at the end of the file.
+  /// @throw std::runtime_error if the disk fails.
+  bool next(LogEntry& entry);
+
+  /// Part of the file that is no whole record.
+  struct Damage {
+    int64_t offset = 0;  ///< [bytes] from the start of the file
+    int64_t bytes = 0;
+  };
+  /// The first kMaxDamages damages that were stepped over.
+  const std::vector<Damage>& damages() const { return damages_; }
+  static constexpr std::size_t kMaxDamages = 1000;
+  int damageCount() const { return damage_count_; }
+  int64_t damagedBytes() const { return damaged_bytes_; }
+
+  const std::string& path() const { return path_; }
+  int64_t fileBytes() const { return file_bytes_; }
+  /// Where the next record is expected [bytes].
+  int64_t offset() const { return offset_; }
+  void rewind();
+
+ private:
+  bool headerAt(int64_t offset, RecordHeader& header, std::string& channel);
+  bool beginsRecord(int64_t offset);
+  bool takeRecord(LogEntry& entry);
+  void skipDamage(int64_t from);
+  int64_t findRecord(int64_t from);
+  std::size_t readAt(int64_t offset, char* bytes, std::size_t size);
+  std::size_t readWindow(std::size_t ahead, char* bytes, std::size_t size) const;
+  std::size_t readFile(int64_t offset, char* bytes, std::size_t size) const;
+
+  std::string path_;
+  int file_ = -1;
+  std::vector<char> window_;  // of the file, from window_offset_ on
+  int64_t window_offset_ = 0;
+  int64_t file_bytes_ = 0;
+  int64_t offset_ = 0;
+  std::vector<Damage> damages_;
+  int damage_count_ = 0;
+  int64_t damaged_bytes_ = 0;
+};
+
+/// Calls `handler` for every message of a log, in the order of the file; damage is stepped over.
+/// @return how often that was so.
 /// @throw std::invalid_argument if the file cannot be read or holds no message at all.
 int readLog(const std::string& path, const std::function<void(const LogEntry&)>& handler);
 

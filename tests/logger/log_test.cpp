@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "lcmtypes/fastball_types.h"
 #include "logger/log_reader.h"
@@ -101,16 +102,73 @@ TEST_F(LogFiles, ALogCutInTheMiddleKeepsWhatIsWhole) {
   EXPECT_THAT(readSeqs(path("a.lcmlog")), testing::ElementsAre(0, 1, 2));
 }
 
-TEST_F(LogFiles, ABadRecordIsSteppedOverWithItsNeighbourAndReported) {
-  writeStates(path("a.lcmlog"), {0, 1, 2, 3, 4});
-  const auto record_size = std::filesystem::file_size(path("a.lcmlog")) / 5;
-  std::fstream file(path("a.lcmlog"), std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(2 * static_cast<std::streamoff>(record_size));
-  file.write("\xff\xff\xff\xff", 4);  // the sync word of record 2
-  file.close();
-  int damaged = 0;
-  EXPECT_THAT(readSeqs(path("a.lcmlog"), &damaged), testing::ElementsAre(0, 3, 4));
-  EXPECT_EQ(damaged, 1);
+/// Overwrites bytes of a file.
+void damage(const std::string& log, std::uintmax_t offset, const std::string& bytes) {
+  std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(offset));
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST_F(LogFiles, OnlyTheDamagedRecordIsLostWhereverItsHeaderIsDamaged) {
+  // Where in the header, and what: sync word, length of the channel, length of the data (too long, too short, hostile).
+  const std::vector<std::pair<int, std::string>> spots{
+      {0, std::string(4, '\xff')},  {20, std::string(4, '\x7f')}, {23, std::string(1, '\0')},
+      {26, std::string(1, '\x7f')}, {27, std::string(1, '\1')},   {24, std::string(4, '\xff')}};
+  for (const auto& [offset, bytes] : spots) {
+    writeStates(path("a.lcmlog"), {0, 1, 2, 3, 4});
+    const auto record_size = std::filesystem::file_size(path("a.lcmlog")) / 5;
+    damage(path("a.lcmlog"), 2 * record_size + static_cast<std::uintmax_t>(offset), bytes);
+    int damaged = 0;
+    EXPECT_THAT(readSeqs(path("a.lcmlog"), &damaged), testing::ElementsAre(0, 1, 3, 4)) << offset;
+    EXPECT_EQ(damaged, 1) << offset;
+  }
+}
+
+TEST_F(LogFiles, BytesBetweenRecordsCostNoRecord) {
+  writeStates(path("a.lcmlog"), {0, 1, 2, 3});
+  std::ifstream whole(path("a.lcmlog"), std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+  const std::size_t record_size = bytes.size() / 4;
+  // As long as the reader's window and longer, and with sync words that begin no record.
+  for (const std::size_t length : {1UL, 27UL, 65536UL, 200000UL}) {
+    std::string noise(length, '\xed');
+    for (std::size_t i = 10; i + 4 < length; i += 1000)
+      noise.replace(i, 4, kSyncWord);
+    std::string longer = bytes;
+    longer.insert(2 * record_size, noise);
+    std::ofstream(path("b.lcmlog"), std::ios::binary) << longer;
+    LogReader reader(path("b.lcmlog"));
+    LogEntry entry;
+    int messages = 0;
+    while (reader.next(entry))
+      ++messages;
+    // The record before has the number before that of the record after: it may be the one whose length is wrong.
+    EXPECT_EQ(messages, 3) << length;
+    EXPECT_EQ(reader.damageCount(), 1) << length;
+    EXPECT_EQ(reader.damagedBytes(), static_cast<int64_t>(length + record_size)) << length;
+  }
+}
+
+TEST_F(LogFiles, AnyDamageLeavesEveryRecordThatItDoesNotTouch) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    writeStates(path("a.lcmlog"), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+    const auto size = std::filesystem::file_size(path("a.lcmlog"));
+    const auto record_size = static_cast<int64_t>(size) / 10;
+    const int64_t length = 1 + static_cast<int64_t>(random() % 200);
+    const int64_t offset =
+        static_cast<int64_t>(random() % size) % (static_cast<int64_t>(size) - length);
+    std::string noise(static_cast<std::size_t>(length), '\0');
+    for (char& byte : noise)
+      byte = static_cast<char>(random());
+    damage(path("a.lcmlog"), static_cast<std::uintmax_t>(offset), noise);
+    const std::vector<int64_t> seqs = readSeqs(path("a.lcmlog"));
+    for (int64_t seq = 0; seq < 10; ++seq) {
+      if ((seq + 1) * record_size <= offset || seq * record_size >= offset + length) {
+        EXPECT_THAT(seqs, testing::Contains(seq)) << "damage at " << offset << ", " << length;
+      }
+    }
+  }
 }
 
 TEST_F(LogFiles, AFileThatIsNoLogIsRefusedByName) {

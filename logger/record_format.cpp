@@ -1,0 +1,44 @@
+#include "logger/record_format.h"
+
+namespace fastball::logger {
+namespace {
+
+uint64_t bigEndian(const char* bytes, int size) {
+  uint64_t value = 0;
+  for (int i = 0; i < size; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+void append(std::string& bytes, uint64_t value, int size) {
+  for (int i = size - 1; i >= 0; --i)
+    bytes.push_back(static_cast<char>(value >> 8 * i));
+}
+
+}  // namespace
+
+int64_t int64At(const char* bytes) {
+  return static_cast<int64_t>(bigEndian(bytes, 8));
+}
+
+bool parseHeader(const char* bytes, RecordHeader& header) {
+  if (std::string_view(bytes, kSyncWord.size()) != kSyncWord)
+    return false;
+  header.number = int64At(bytes + 4);
+  header.utime = int64At(bytes + 12);
+  header.channel_bytes = bigEndian(bytes + 20, 4);
+  header.data_bytes = bigEndian(bytes + 24, 4);
+  return header.channel_bytes >= 1 && header.channel_bytes <= kMaxChannelBytes &&
+         header.data_bytes <= kMaxDataBytes;
+}
+
+std::string headerBytes(const RecordHeader& header) {
+  std::string bytes(kSyncWord);
+  append(bytes, static_cast<uint64_t>(header.number), 8);
+  append(bytes, static_cast<uint64_t>(header.utime), 8);
+  append(bytes, header.channel_bytes, 4);
+  append(bytes, header.data_bytes, 4);
+  return bytes;
+}
+
+}  // namespace fastball::logger

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// One record of LCM's log file format: sync word, number of the record, time, length of channel and data, channel, data; all
+/// numbers big endian.
+namespace fastball::logger {
+
+inline constexpr std::size_t kHeaderBytes = 28;
+inline constexpr std::string_view kSyncWord{"\xed\xa1\xda\x01", 4};
+/// LCM's own limit.
+inline constexpr std::size_t kMaxChannelBytes = 63;
+/// Larger data is taken for damage, so that a damaged length cannot fill the memory.
+inline constexpr std::size_t kMaxDataBytes = std::size_t{64} << 20;
+
+struct RecordHeader {
+  int64_t number = 0;  ///< 0, 1, 2, ... in a file
+  int64_t utime = 0;   ///< [us since 1970]
+  std::size_t channel_bytes = 0;
+  std::size_t data_bytes = 0;
+  std::size_t recordBytes() const { return kHeaderBytes + channel_bytes + data_bytes; }
+};
+
+/// @return false if the kHeaderBytes at `bytes` cannot be the header of a record: no sync word, or a length beyond its limit.
+bool parseHeader(const char* bytes, RecordHeader& header);
+
+/// The kHeaderBytes of a record.
+std::string headerBytes(const RecordHeader& header);
+
+/// A big-endian number of eight bytes.
+int64_t int64At(const char* bytes);
+
+}  // namespace fastball::logger
