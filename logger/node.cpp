@@ -1,30 +1,51 @@
 #include "logger/node.h"
 
-#include "logger/log_writer.h"
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+
+#include "logger/channel_filter.h"
+#include "logger/run_record.h"
+#include "logger/sequence_gaps.h"
 
 namespace fastball::logger {
 namespace {
 
-constexpr int64_t kFlushPeriodUs = 100'000;
 constexpr int64_t kStatusPeriodUs = 1'000'000;
+/// How often it looks whether the log is still whole.
+constexpr int64_t kWatchPeriodUs = 100'000;
 /// LCM talks to itself on this channel when it starts.
 constexpr const char* kSelfTest = "LCM_SELF_TEST";
+
+std::string timeOfDay(int64_t utime) {
+  const std::time_t seconds = utime / 1'000'000;
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  return fmt::format("{:%H:%M:%S}.{:03d}", local, utime / 1000 % 1000);
+}
 
 class LoggerNode : public messaging::Node {
  public:
   LoggerNode(messaging::LcmEndpoint& endpoint,
              const messaging::Clock& clock,
-             const std::string& log_path)
+             const LoggerOptions& options)
       : endpoint_(endpoint),
         clock_(clock),
-        writer_(log_path),
+        log_path_(options.recorder.path),
+        filter_(options.channels, options.excluded),
+        gaps_(types_),
+        recorder_(options.recorder),
         status_publisher_(endpoint, messaging::kLoggerStatus),
-        next_flush_us_(clock.monotonicUs()),
+        next_watch_us_(clock.monotonicUs()),
         next_status_us_(clock.monotonicUs()) {
     endpoint.subscribeRaw(".*", [this](const std::string& channel, const void* data,
                                        std::size_t size, int64_t utime) {
-      if (channel != kSelfTest)
-        writer_.write(channel, data, size, utime);
+      if (channel == kSelfTest || !filter_.wants(channel))
+        return;
+      missing_ += gaps_.missingBefore(channel, data, size);
+      recorder_.add(channel, {static_cast<const char*>(data), size}, utime);
     });
   }
 
@@ -32,9 +53,9 @@ class LoggerNode : public messaging::Node {
 
   void step() override {
     const int64_t now = clock_.monotonicUs();
-    if (now >= next_flush_us_) {
-      writer_.flush();
-      next_flush_us_ = now + kFlushPeriodUs;
+    if (now >= next_watch_us_) {
+      watch();
+      next_watch_us_ = now + kWatchPeriodUs;
     }
     if (now >= next_status_us_) {
       sayStatus();
@@ -42,47 +63,94 @@ class LoggerNode : public messaging::Node {
     }
   }
 
-  int64_t wakeUs() const override { return std::min(next_flush_us_, next_status_us_); }
+  int64_t wakeUs() const override { return std::min(next_watch_us_, next_status_us_); }
 
   messaging::NodeState state() const override {
-    if (!writer_.failure().empty())
-      return {"failed", writer_.failure(), 0};
-    return {"logging", writer_.path(), 0};
+    if (dropping_)
+      return {"dropping", failure_.empty() ? "the disk is too slow" : failure_, 0};
+    return failure_.empty() ? messaging::NodeState{"logging", log_path_, 0}
+                            : messaging::NodeState{"waiting", failure_, 0};
   }
 
   void shutDown() override {
     sayStatus();
     while (endpoint_.drain() > 0) {  // what has arrived, the status above included
     }
-    writer_.flush();
+    recorder_.stop();
+    watch();
+    addRecordingToRunRecord(log_path_, recorder_, missing_);
+    if (const int64_t dropped = recorder_.queue().droppedMessages(); dropped > 0)
+      spdlog::error("{} messages were dropped: {}", dropped, droppedInWords());
   }
 
  private:
+  /// Says when the log ceases to be whole and when it goes on.
+  void watch() {
+    const auto status = recorder_.status();
+    const int64_t dropped = recorder_.queue().droppedMessages();
+    if (status.failure.empty() != failure_.empty()) {
+      if (failure_.empty())
+        spdlog::error("{}; messages wait in memory until there is room", status.failure);
+      else
+        spdlog::warn("writing to '{}' goes on", status.files.back());
+    }
+    failure_ = status.failure;
+    const bool dropping = dropped > dropped_;
+    if (dropping && !dropping_)
+      spdlog::error("dropping messages: {} MB wait for the disk", recorder_.queue().bytes() >> 20);
+    if (dropping_ && !dropping)
+      spdlog::warn("no more messages are dropped; so far {}", droppedInWords());
+    dropping_ = dropping;
+    dropped_ = dropped;
+  }
+
+  std::string droppedInWords() const {
+    std::string words;
+    for (const auto& [channel, dropped] : recorder_.queue().dropped())
+      words += fmt::format("{}{} {} from {} to {}", words.empty() ? "" : ", ", dropped.messages,
+                           channel, timeOfDay(dropped.first_utime), timeOfDay(dropped.last_utime));
+    return words;
+  }
+
   void sayStatus() {
+    const auto written = recorder_.status();
+    const int64_t dropped = recorder_.queue().droppedMessages();
     logger_status_t status{};
     status.utime = clock_.wallUs();
-    status.path = writer_.path();
-    status.messages = writer_.messages();
-    status.bytes = writer_.bytes();
-    status.lost = writer_.lost();
-    status.message = writer_.failure();
+    status.path = written.files.back();
+    status.messages = written.messages;
+    status.bytes = written.bytes;
+    status.lost = missing_ + dropped;
+    status.message = written.failure;
+    if (dropped > 0)
+      status.message =
+          messaging::shortened(fmt::format("{}{}dropped {}", written.failure,
+                                           written.failure.empty() ? "" : "; ", droppedInWords()));
     status_publisher_.publish(status);
   }
 
   messaging::LcmEndpoint& endpoint_;
   const messaging::Clock& clock_;
-  LogWriter writer_;
+  const std::string log_path_;
+  ChannelFilter filter_;
+  const messaging::TypeLibrary types_;
+  SequenceGaps gaps_;
+  Recorder recorder_;
   messaging::Publisher<logger_status_t> status_publisher_;
-  int64_t next_flush_us_;
+  int64_t next_watch_us_;
   int64_t next_status_us_;
+  int64_t missing_ = 0;
+  int64_t dropped_ = 0;
+  bool dropping_ = false;
+  std::string failure_;
 };
 
 }  // namespace
 
 std::unique_ptr<messaging::Node> makeNode(messaging::LcmEndpoint& endpoint,
                                           const messaging::Clock& clock,
-                                          const std::string& log_path) {
-  return std::make_unique<LoggerNode>(endpoint, clock, log_path);
+                                          const LoggerOptions& options) {
+  return std::make_unique<LoggerNode>(endpoint, clock, options);
 }
 
 }  // namespace fastball::logger

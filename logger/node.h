@@ -3,17 +3,25 @@
 #include <memory>
 #include <string>
 
+#include "logger/recorder.h"
 #include "messaging/clock.h"
 #include "messaging/lcm_endpoint.h"
 #include "messaging/node.h"
 
 namespace fastball::logger {
 
-/// Logs every message of every channel that `endpoint` hears to the file `log_path`, flushed ten times a second, and says
-/// LOGGER_STATUS once a second and at the end.
-/// @throw std::invalid_argument if the file cannot be written.
+struct LoggerOptions {
+  RecorderOptions recorder;
+  std::string channels = ".*";  ///< regular expression that a logged channel matches as a whole
+  std::string excluded;         ///< and that it must not match; empty: none
+};
+
+/// Logs every message that `endpoint` hears on the channels asked for, and says LOGGER_STATUS once a second and at the end. What
+/// it received is on its way to the disk within 50 ms. When the log is not whole, it says so once, when that begins and
+/// when it ends, and adds to the run's record what was dropped and when.
+/// @throw std::invalid_argument if the file cannot be written or a regular expression does not parse.
 std::unique_ptr<messaging::Node> makeNode(messaging::LcmEndpoint& endpoint,
                                           const messaging::Clock& clock,
-                                          const std::string& log_path);
+                                          const LoggerOptions& options);
 
 }  // namespace fastball::logger

@@ -28,8 +28,7 @@ bool parseHeader(const char* bytes, RecordHeader& header) {
   header.utime = int64At(bytes + 12);
   header.channel_bytes = bigEndian(bytes + 20, 4);
   header.data_bytes = bigEndian(bytes + 24, 4);
-  return header.channel_bytes >= 1 && header.channel_bytes <= kMaxChannelBytes &&
-         header.data_bytes <= kMaxDataBytes;
+  return canBeRecorded(header.channel_bytes, header.data_bytes);
 }
 
 std::string headerBytes(const RecordHeader& header) {

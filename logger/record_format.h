@@ -24,6 +24,11 @@ struct RecordHeader {
   std::size_t recordBytes() const { return kHeaderBytes + channel_bytes + data_bytes; }
 };
 
+/// True if LCM can carry such a message and a log can hold it.
+inline bool canBeRecorded(std::size_t channel_bytes, std::size_t data_bytes) {
+  return channel_bytes >= 1 && channel_bytes <= kMaxChannelBytes && data_bytes <= kMaxDataBytes;
+}
+
 /// @return false if the kHeaderBytes at `bytes` cannot be the header of a record: no sync word, or a length beyond its limit.
 bool parseHeader(const char* bytes, RecordHeader& header);
 

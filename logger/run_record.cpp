@@ -1,6 +1,7 @@
 #include "logger/run_record.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -40,6 +41,20 @@ nlohmann::json configurationTexts(const std::filesystem::path& config_path) {
   return texts;
 }
 
+/// All or nothing, so that a full disk cannot cost the record that is there. Channels and paths may be any bytes.
+bool writeWhole(const std::string& path, const nlohmann::json& json) {
+  const std::string unfinished = path + ".new";
+  std::ofstream file(unfinished);
+  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.close();
+  std::error_code error;
+  if (file)
+    std::filesystem::rename(unfinished, path, error);
+  else
+    std::filesystem::remove(unfinished, error);
+  return file && !error;
+}
+
 }  // namespace
 
 std::string runRecordPath(const std::string& log_path) {
@@ -54,10 +69,35 @@ void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_
                                {"start_utime", start_utime},
                                {"config", record.config_path},
                                {"configuration", configurationTexts(record.config_path)}};
+  if (!writeWhole(runRecordPath(log_path), json))
+    throw std::invalid_argument(
+        fmt::format("cannot write the record of the run '{}'", runRecordPath(log_path)));
+}
+
+void addRecordingToRunRecord(const std::string& log_path,
+                             const Recorder& recorder,
+                             int64_t missing) {
   const std::string path = runRecordPath(log_path);
-  std::ofstream file(path);
-  if (!(file << json.dump(2) << '\n') || !file.flush())
-    throw std::invalid_argument(fmt::format("cannot write the record of the run '{}'", path));
+  std::ifstream file(path);
+  if (!file)
+    return;
+  auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object())
+    return;
+  const auto status = recorder.status();
+  auto& recording = json["recording"];
+  recording = {{"files", status.files},
+               {"messages", status.messages},
+               {"bytes", status.bytes},
+               {"missing", missing},
+               {"dropped", nlohmann::json::object()}};
+  for (const auto& [channel, dropped] : recorder.queue().dropped()) {
+    recording["dropped"][channel] = {{"messages", dropped.messages},
+                                     {"first_utime", dropped.first_utime},
+                                     {"last_utime", dropped.last_utime}};
+  }
+  if (!writeWhole(path, json))
+    spdlog::error("cannot write the record of the run '{}'", path);
 }
 
 }  // namespace fastball::logger

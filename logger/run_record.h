@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "logger/recorder.h"
+
 namespace fastball::logger {
 
 /// What a run was, for whoever reads its log later.
@@ -20,5 +22,11 @@ std::string runRecordPath(const std::string& log_path);
 /// file and of every file in its folder and below, so that the run can be repeated after they have changed.
 /// @throw std::invalid_argument if it cannot be written or the configuration cannot be read.
 void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_t start_utime);
+
+/// Adds to the record, if there is one, what became of the recording: files, messages, bytes, messages missing by their sequence
+/// numbers, and for each channel how many were dropped, from when to when. A failure is said on standard error.
+void addRecordingToRunRecord(const std::string& log_path,
+                             const Recorder& recorder,
+                             int64_t missing);
 
 }  // namespace fastball::logger
