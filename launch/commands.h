@@ -13,6 +13,7 @@ namespace fastball::launch {
 void addRunCommand(CLI::App& app, int& exit_status);
 void addBenchCommand(CLI::App& app, int& exit_status);
 void addAtlasCommand(CLI::App& app, int& exit_status);
+void addLogCommand(CLI::App& app, int& exit_status);
 void addReplayCommand(CLI::App& app, int& exit_status);
 void addFiguresCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);

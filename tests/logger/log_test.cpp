@@ -8,62 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "lcmtypes/fastball_types.h"
-#include "logger/log_reader.h"
-#include "logger/log_writer.h"
 #include "logger/run_record.h"
 #include "logger/sequence_gaps.h"
+#include "tests/logger/log_files.h"
 
 namespace fastball::logger {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<char> encode(const arm_state_t& message) {
-  std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-std::vector<char> armState(int64_t seq) {
-  arm_state_t state{};
-  state.seq = seq;
-  return encode(state);
-}
-
-class LogFiles : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  void writeStates(const std::string& log, const std::vector<int64_t>& seqs) const {
-    LogWriter writer(log);
-    for (const int64_t seq : seqs) {
-      const auto bytes = armState(seq);
-      writer.write("ARM_STATE", bytes.data(), bytes.size(), 1000 * seq);
-    }
-  }
-
-  static std::vector<int64_t> readSeqs(const std::string& log, int* damaged = nullptr) {
-    std::vector<int64_t> seqs;
-    const int steps = readLog(log, [&](const LogEntry& entry) {
-      arm_state_t state{};
-      if (entry.decode(state))
-        seqs.push_back(state.seq);
-    });
-    if (damaged)
-      *damaged = steps;
-    return seqs;
-  }
-
- private:
-  std::filesystem::path folder_;
-};
 
 TEST_F(LogFiles, WhatIsWrittenIsReadBackInOrder) {
   writeStates(path("a.lcmlog"), {0, 1, 2, 3});
@@ -107,13 +59,6 @@ TEST_F(LogFiles, ALogCutInTheMiddleKeepsWhatIsWhole) {
   writeStates(path("a.lcmlog"), {0, 1, 2, 3});
   std::filesystem::resize_file(path("a.lcmlog"), std::filesystem::file_size(path("a.lcmlog")) - 5);
   EXPECT_THAT(readSeqs(path("a.lcmlog")), testing::ElementsAre(0, 1, 2));
-}
-
-/// Overwrites bytes of a file.
-void damage(const std::string& log, std::uintmax_t offset, const std::string& bytes) {
-  std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(static_cast<std::streamoff>(offset));
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 TEST_F(LogFiles, OnlyTheDamagedRecordIsLostWhereverItsHeaderIsDamaged) {
