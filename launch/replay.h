@@ -1,41 +1,46 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <string>
-#include <vector>
 
-#include "lcmtypes/fastball_types.h"
+#include "logger/log_edit.h"
 #include "messaging/lcm_endpoint.h"
 
 namespace fastball::launch {
 
 struct ReplayOptions {
-  double speed = 1;       ///< times real time
-  bool commands = false;  ///< also channels that make a robot move
+  logger::LogPart part;                      ///< what of the log is said
+  double speed = 1;                          ///< times real time
+  std::map<std::string, std::string> names;  ///< channels that are said under another name
+  bool commands = false;                     ///< also channels that make a robot move
+  bool paused = false;                       ///< begins paused
 };
 
-/// Says the messages of a log again, at their recorded intervals divided by the speed. Channels that make a robot move
-/// (ARM_COMMAND, HAND_COMMAND, THROW_START, SCENE) are passed over unless asked for.
+/// What the user of a replay sees and does meanwhile.
+class ReplayConsole {
+ public:
+  virtual ~ReplayConsole() = default;
+  /// Waits for input until the steady time `until_us` at the latest, and may return earlier.
+  virtual void wait(int64_t until_us) = 0;
+  virtual bool paused() = 0;
+  virtual bool stopped() = 0;
+  /// `time` [s] in the log from its first message, `share` of the file that has been read.
+  virtual void show(double time, double share, int64_t said) = 0;
+};
+
+/// Says the messages of a log again, at their recorded intervals divided by the speed; a pause moves all that follows. Channels that
+/// make a robot move (ARM_COMMAND, HAND_COMMAND, THROW_START, SCENE, ESTOP) are passed over unless asked for; what counts is the
+/// name under which a message would be said.
 /// @return how many messages were said.
 /// @throw std::invalid_argument if the log cannot be read.
 int64_t replayLog(const std::string& log_path,
                   const ReplayOptions& options,
-                  messaging::LcmEndpoint& endpoint);
+                  messaging::LcmEndpoint& endpoint,
+                  ReplayConsole& console);
 
-/// A recorded LANDING beside what the tracker says now.
-struct RerunLanding {
-  landing_t recorded{};
-  landing_t rerun{};
-  bool equal = false;  ///< every field but seq, bit for bit
-};
-
-/// Feeds the recorded images, camera data and requests of a log to a fresh tracker process, as fast as it takes them, and pairs
-/// each recorded LANDING with the one it says.
-/// @throw std::invalid_argument if the log cannot be read or holds no LANDING.
-/// @throw std::runtime_error if the tracker does not start, ends, or falls silent.
-std::vector<RerunLanding> rerunTracker(const std::string& log_path, const std::string& config_path);
-
-/// "throw 1: recorded (+12.10, -3.00) mm, now (+12.10, -3.00) mm: equal"
-std::string rerunLine(const RerunLanding& landing);
+/// Steady time [us], origin arbitrary.
+int64_t steadyUs();
 
 }  // namespace fastball::launch

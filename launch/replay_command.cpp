@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <iostream>
+#include <memory>
+#include <stdexcept>
 
 #include "config/experiment.h"
 #include "launch/commands.h"
 #include "launch/replay.h"
+#include "launch/replay_console.h"
+#include "launch/replay_rerun.h"
 #include "messaging/process.h"
 
 namespace fastball::launch {
@@ -15,19 +18,73 @@ namespace {
 struct Options {
   std::string log, rerun, config;
   std::string lcm_url = messaging::defaultLcmUrl();
+  std::vector<std::string> names;
   ReplayOptions replay;
 };
 
-int rerun(const Options& options) {
-  const std::string config = config::experimentPath(options.config);
-  const auto landings = rerunTracker(options.log, config);
-  for (const RerunLanding& landing : landings)
-    std::cout << rerunLine(landing) << '\n';
-  const auto equal = std::count_if(landings.begin(), landings.end(),
-                                   [](const RerunLanding& landing) { return landing.equal; });
-  std::cout << fmt::format("{} of {} landings equal\n", equal, landings.size());
-  return equal == static_cast<std::ptrdiff_t>(landings.size()) ? messaging::kExitDone
-                                                               : messaging::kExitFailed;
+int runAgain(const Options& options) {
+  const auto channels = rerun(options.rerun, options.log, config::experimentPath(options.config));
+  int64_t recorded = 0, equal = 0;
+  for (const auto& [name, channel] : channels) {
+    std::cout << comparisonLine(name, channel) << '\n';
+    recorded += channel.recorded;
+    equal += channel.equal;
+  }
+  std::cout << fmt::format("{} of {} messages of the {} equal, in all fields but seq and plan_ms\n",
+                           equal, recorded, options.rerun);
+  return equal == recorded ? messaging::kExitDone : messaging::kExitFailed;
+}
+
+/// "ARM_STATE=OLD_ARM_STATE" and so on.
+std::map<std::string, std::string> namePairs(const std::vector<std::string>& pairs) {
+  std::map<std::string, std::string> names;
+  for (const std::string& pair : pairs) {
+    const auto equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == pair.size())
+      throw std::invalid_argument(
+          fmt::format("--remap takes RECORDED=SAID, two names of channels, not '{}'", pair));
+    names[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  return names;
+}
+
+int sayAgain(Options& options) {
+  options.replay.names = namePairs(options.names);
+  messaging::LcmEndpoint endpoint(options.lcm_url);
+  TerminalConsole console(options.replay.paused);
+  const int64_t said = replayLog(options.log, options.replay, endpoint, console);
+  console.line(fmt::format("replayed {} messages on {}{}", said, endpoint.url(),
+                           console.stopped() ? ", stopped before the end" : ""));
+  return endpoint.unsent() == 0 ? messaging::kExitDone : messaging::kExitFailed;
+}
+
+void addFlags(CLI::App& command, Options& options) {
+  command.add_option("LOG", options.log, "LCM log file")->required();
+  command.add_option("--from", options.replay.part.from, "Seconds from the first message")
+      ->capture_default_str();
+  command.add_option("--to", options.replay.part.to, "Seconds from the first message");
+  command.add_option("--speed", options.replay.speed, "Times real time")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  command.add_option("--channel", options.replay.part.channels, "Only channels that match this")
+      ->option_text("REGEX");
+  command.add_option("--exclude", options.replay.part.excluded, "No channel that matches this")
+      ->option_text("REGEX");
+  command.add_option("--remap", options.names, "Say a channel under another name; may be repeated")
+      ->option_text("RECORDED=SAID")
+      ->expected(1)
+      ->take_all();
+  command.add_flag("--pause", options.replay.paused,
+                   "Begin paused; the space bar goes on and pauses");
+  command.add_flag("--commands", options.replay.commands,
+                   "Replay also the channels that make a robot move");
+  command
+      .add_option("--rerun", options.rerun,
+                  "Feed the recorded input to this process and compare all that it says")
+      ->check(CLI::IsMember(rerunProcesses()));
+  command.add_option("--config", options.config, "Experiment file of the process run again");
+  command.add_option("--lcm-url", options.lcm_url, "Where to say the messages")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -36,28 +93,9 @@ void addReplayCommand(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "replay", "Say the messages of a log again, or feed them to a process and compare");
-  command->add_option("LOG", options->log, "LCM log file")->required();
-  command->add_option("--speed", options->replay.speed, "Times real time")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
-  command
-      ->add_option("--rerun", options->rerun,
-                   "Feed the recorded input to this process and compare what it says")
-      ->check(CLI::IsMember({"tracker"}));
-  command->add_flag("--commands", options->replay.commands,
-                    "Replay also the channels that make a robot move");
-  command->add_option("--config", options->config, "Experiment file of the process run again");
-  command->add_option("--lcm-url", options->lcm_url, "Where to say the messages")
-      ->capture_default_str();
+  addFlags(*command, *options);
   command->callback([options, &exit_status] {
-    if (!options->rerun.empty()) {
-      exit_status = rerun(*options);
-      return;
-    }
-    messaging::LcmEndpoint endpoint(options->lcm_url);
-    const int64_t said = replayLog(options->log, options->replay, endpoint);
-    std::cout << fmt::format("replayed {} messages on {}\n", said, endpoint.url());
-    exit_status = messaging::kExitDone;
+    exit_status = options->rerun.empty() ? sayAgain(*options) : runAgain(*options);
   });
 }
 
