@@ -6,7 +6,7 @@
 
 #include "model/camera.h"
 #include "vision_tracker/ball_fit.h"
-#include "vision_tracker/flight_fit.h"
+#include "vision_tracker/flight_landing.h"
 
 namespace fastball::vision_tracker {
 
