@@ -19,6 +19,7 @@ void addFiguresCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);
 void addCalibrateCommand(CLI::App& app, int& exit_status);
 void addTrackCommand(CLI::App& app, int& exit_status);
+void addDoctorCommand(CLI::App& app, int& exit_status);
 /// up, down, ps, hold
 void addSystemCommands(CLI::App& app, int& exit_status);
 

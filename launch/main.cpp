@@ -23,6 +23,7 @@ int fastballMain(int argc, char** argv) {
   int exit_status = kExitDone;
   fastball::launch::addRunCommand(app, exit_status);
   fastball::launch::addSystemCommands(app, exit_status);
+  fastball::launch::addDoctorCommand(app, exit_status);
   fastball::launch::addLogCommand(app, exit_status);
   fastball::launch::addReplayCommand(app, exit_status);
   fastball::launch::addReportCommand(app, exit_status);
