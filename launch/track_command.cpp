@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,7 +24,8 @@ namespace {
 
 struct TrackOptions {
   std::vector<std::string> videos;
-  std::string calibration, folder, config;
+  std::vector<std::string> calibrations;
+  std::string folder, config;
   double radius = 0;
 };
 
@@ -56,14 +59,15 @@ int track(const TrackOptions& options) {
   const config::Experiment experiment = config::loadExperiment(path);
   const vision_tracker::TrackerOptions tracker = vision_tracker::readTracker(path).tracker;
   std::vector<model::Camera> cameras;
-  if (!options.calibration.empty())
-    cameras = config::readCalibration(options.calibration);
+  for (const std::string& file : options.calibrations)
+    for (const model::Camera& camera : config::readCalibration(file))
+      cameras.push_back(camera);
   if (cameras.empty() && !(options.radius > 0))
     throw std::invalid_argument(
         "--radius: without --calib the ball's approximate radius in pixels is needed");
   if (!cameras.empty() && cameras.size() != options.videos.size())
-    throw std::invalid_argument(fmt::format("{}: has {} cameras, but there are {} videos",
-                                            options.calibration, cameras.size(),
+    throw std::invalid_argument(fmt::format("{}: {} cameras, but there are {} videos",
+                                            fmt::join(options.calibrations, ", "), cameras.size(),
                                             options.videos.size()));
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
@@ -85,7 +89,12 @@ int track(const TrackOptions& options) {
                t.frames);
     everywhere = everywhere && !t.sightings.empty();
   }
-  if (cameras.size() >= 2 && everywhere) {
+  const bool posed = std::any_of(cameras.begin(), cameras.end(), [](const model::Camera& c) {
+    return !c.R_CW.isIdentity(0) || !c.p_CW.isZero(0);
+  });
+  if (cameras.size() >= 2 && !posed)
+    fmt::print("no flight: the calibration has no pose (R, T), so it does not tell what is down\n");
+  if (cameras.size() >= 2 && posed && everywhere) {
     const auto flight = vision_tracker::flightOf(tracks, cameras, tracker.prior);
     const std::string text =
         flight ? flightText(*flight, vision_tracker::landingOf(*flight, experiment.target,
@@ -112,8 +121,12 @@ void addTrackCommand(CLI::App& app, int& exit_status) {
                    "One video of each camera, all beginning at the same time")
       ->required()
       ->expected(1, 4);
-  command->add_option("--calib", options->calibration,
-                      "Calibration, OpenCV YAML; without it the track is in pixels only");
+  command
+      ->add_option(
+          "--calib", options->calibrations,
+          "Calibration of the videos' cameras, OpenCV YAML: one file for all, or once for each; "
+          "without it the track is in pixels only")
+      ->allow_extra_args(false);
   command
       ->add_option("--radius", options->radius,
                    "Approximate radius of the ball in the images [px] (default with --calib: from "
