@@ -6,6 +6,28 @@
 #include <opencv2/imgcodecs.hpp>
 
 namespace fastball::vision_tracker {
+namespace {
+
+/// The size that a JPEG says it has, empty if it does not. A message of 60 kB can claim a gigabyte of pixels, which the decoder
+/// would try; so this is looked at first (ITU-T T.81, Annex B: segments of a marker and a length up to the frame header).
+cv::Size claimedSize(const std::vector<uint8_t>& jpeg) {
+  const auto word = [&](std::size_t i) { return jpeg[i] << 8 | jpeg[i + 1]; };
+  std::size_t i = 2;
+  while (i + 9 < jpeg.size() && jpeg[i] == 0xFF) {
+    const int marker = jpeg[i + 1];
+    if (marker == 0xFF) {  // fill byte
+      ++i;
+      continue;
+    }
+    const bool other_table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
+    if (marker >= 0xC0 && marker <= 0xCF && !other_table)
+      return {word(i + 7), word(i + 5)};
+    i += 2 + static_cast<std::size_t>(word(i + 2));
+  }
+  return {};
+}
+
+}  // namespace
 
 std::string decode(const ReceivedImage& image, const cv::Size& size, cv::Mat& decoded) {
   if (image.width != size.width || image.height != size.height) {
@@ -28,6 +50,13 @@ std::string decode(const ReceivedImage& image, const cv::Size& size, cv::Mat& de
   if (n < 4 || image.data[0] != 0xFF || image.data[1] != 0xD8 || image.data[n - 2] != 0xFF ||
       image.data[n - 1] != 0xD9)
     return fmt::format("is no whole JPEG image ({} bytes)", n);
+  const cv::Size claimed = claimedSize(image.data);
+  if (!claimed.empty() && claimed != size)
+    return fmt::format("decodes to {} x {} pixels, but its camera has {} x {}", claimed.width,
+                       claimed.height, size.width, size.height);
+  decoded.release();
+  if (claimed.empty())
+    return fmt::format("does not decode as JPEG ({} bytes)", n);
   try {
     cv::imdecode(image.data, cv::IMREAD_GRAYSCALE, &decoded);
   } catch (const cv::Exception&) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
 namespace fastball::vision_tracker {
@@ -103,6 +104,15 @@ TEST(Decode, SaysWhatIsWrong) {
   other.width = 32;
   EXPECT_EQ(decode(other, {32, 48}, decoded),
             "decodes to 64 x 48 pixels, but its camera has 32 x 48");
+  // It claims a gigabyte, which must not be tried.
+  ReceivedImage huge = encoded();
+  const std::vector<uint8_t> frame_header = {0xFF, 0xC0, 0x00, 0x0B, 0x08};
+  const auto header =
+      std::search(huge.data.begin(), huge.data.end(), frame_header.begin(), frame_header.end());
+  ASSERT_NE(header, huge.data.end());
+  std::fill(header + 5, header + 9, uint8_t{0x7F});
+  EXPECT_EQ(decode(huge, {64, 48}, decoded),
+            "decodes to 32639 x 32639 pixels, but its camera has 64 x 48");
   ReceivedImage empty = encoded();
   empty.data.clear();
   EXPECT_NE(decode(empty, {64, 48}, decoded), "");
