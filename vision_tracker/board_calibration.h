@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "model/camera.h"
+#include "vision_tracker/board_corners.h"
 
 namespace fastball::vision_tracker {
-
-/// A ChArUco board: a chessboard with an ArUco marker in every white square.
-struct BoardShape {
-  int columns = 0, rows = 0;  ///< squares
-  double square = 0;          ///< [m], side of a square
-  double marker = 0;          ///< [m], side of a marker, less than `square`
-  std::string dictionary;     ///< of the markers, e.g. "5X5_250"
-};
 
 /// An image of the board.
 struct BoardImage {
@@ -26,7 +19,7 @@ struct BoardImage {
 /// What one image gave.
 struct BoardView {
   std::string name;
-  int corners = 0;
+  BoardCorners corners;
   double rms = 0;  ///< [px], of its residuals; 0 if it was not used
   bool used = false;
   Eigen::Matrix3d R_CB =
@@ -49,8 +42,5 @@ struct BoardCalibration {
 ///   show the board from nearly the same direction (then focal length and distance cannot be told apart), or the corners
 ///   leave most of the image empty
 BoardCalibration calibrateFromBoard(const std::vector<BoardImage>& images, const BoardShape& shape);
-
-/// The board as an image, `pixels` for each square, to print or to test with.
-cv::Mat drawBoard(const BoardShape& shape, int pixels);
 
 }  // namespace fastball::vision_tracker

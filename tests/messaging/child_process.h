@@ -42,10 +42,10 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Reads until the output contains `text`. @return false if the program ends, or 30 s pass, without it.
-  bool waitForOutput(const std::string& text) {
+  /// Reads until the output contains `text`. @return false if the program ends, or says nothing for `patience` [ms], without it.
+  bool waitForOutput(const std::string& text, int patience = 30'000) {
     while (output_.find(text) == std::string::npos) {
-      if (!readSome())
+      if (!readSome(patience))
         return false;
     }
     return true;
@@ -76,9 +76,9 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
 
  private:
-  bool readSome() {
+  bool readSome(int patience = 30'000) {
     pollfd ready{output_fd_, POLLIN, 0};
-    if (poll(&ready, 1, 30'000) <= 0)
+    if (poll(&ready, 1, patience) <= 0)
       return false;
     char buffer[4096];
     const ssize_t n = read(output_fd_, buffer, sizeof(buffer));

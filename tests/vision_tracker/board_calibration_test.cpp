@@ -4,18 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "sim_bullet/camera_background.h"
+#include "tests/vision_tracker/drawn_board.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr int kSquarePixels = 60;
 
 class BoardCalibrations : public ::testing::Test {
  protected:
@@ -27,35 +23,13 @@ class BoardCalibrations : public ::testing::Test {
     truth_.cx = 325;
     truth_.cy = 236;
     truth_.distortion << -0.12, 0.05, 0.0005, -0.0005, 0;
-    rays_ = sim_bullet::rayMap(truth_);
-    board_ = drawBoard(shape_, kSquarePixels);
+    rays_ = ::fastball::testing::DrawnBoard::raysOf(truth_);
   }
 
   /// The board turned by `tilt` [rad] about `axis`, its middle at `middle` [m] before the camera.
   cv::Mat picture(double tilt, const Eigen::Vector3d& axis, const Eigen::Vector3d& middle) const {
     const Eigen::Matrix3d R = Eigen::AngleAxisd(tilt, axis.normalized()).toRotationMatrix();
-    const Eigen::Vector3d half(shape_.columns * shape_.square / 2, shape_.rows * shape_.square / 2,
-                               0);
-    const Eigen::Vector3d p = middle - R * half, n = R.col(2);
-    cv::Mat2f map(truth_.height, truth_.width);
-    for (int v = 0; v < map.rows; ++v) {
-      for (int u = 0; u < map.cols; ++u) {
-        const auto& r = rays_.at<cv::Vec2f>(v, u);
-        const Eigen::Vector3d d(r[0], r[1], 1);
-        const Eigen::Vector3d on_board =
-            R.transpose() * (n.dot(p) / n.dot(d) * d - p) / shape_.square;
-        map(v, u) = {static_cast<float>(on_board.x() * kSquarePixels - 0.5),
-                     static_cast<float>(on_board.y() * kSquarePixels - 0.5)};
-      }
-    }
-    cv::Mat image;
-    cv::remap(board_, image, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT, 200);
-    cv::GaussianBlur(image, image, {}, 0.7);
-    cv::Mat noise(image.size(), CV_16S), sum;
-    cv::theRNG().state = 7;
-    cv::randn(noise, 0, 2);
-    cv::add(image, noise, sum, cv::noArray(), CV_8U);
-    return sum;
+    return board_.picture(rays_, R, board_.origin(R, middle));
   }
 
   std::vector<BoardImage> goodImages() const {
@@ -78,7 +52,8 @@ class BoardCalibrations : public ::testing::Test {
 
   BoardShape shape_{8, 6, 0.04, 0.03, "5X5_100"};
   model::Camera truth_;
-  cv::Mat rays_, board_;
+  ::fastball::testing::DrawnBoard board_{shape_};
+  cv::Mat rays_;
 };
 
 TEST_F(BoardCalibrations, FindsTheCameraThatTookTheImages) {
