@@ -221,6 +221,25 @@ TEST_P(Fuzz, IsOutlived) {
   EXPECT_EQ(endpoint_.unsent(), 0);
 }
 
+TEST_P(Fuzz, PixelFormatsThatAreNoneAreCountedAndSaid) {
+  sayInfo(true, 0);
+  sayInfo(true, 1);
+  sayRequest(true, 1);
+  for (int i = 0; i < 20; ++i) {
+    image_t m = ::fastball::testing::imageMessage(images_[static_cast<std::size_t>(i)]);
+    m.pixelformat = 861030210;  // BGR
+    endpoint_.say("CAMERA_LEFT", encoded(m));
+    node_->step();
+  }
+  clock_.advanceUs(node_->wakeUs() - clock_.monotonicUs());
+  node_->step();
+  ASSERT_EQ(endpoint_.landings.size(), 1u);
+  EXPECT_EQ(endpoint_.landings[0].measured, 0);
+  EXPECT_EQ(endpoint_.landings[0].message,
+            "not measured: no image came; 20 images could not be used, the first: an image message "
+            "was cut off, or of a pixel format other than GRAY and MJPEG");
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, Fuzz, ::testing::Values(1U, 2U));
 
 }  // namespace
