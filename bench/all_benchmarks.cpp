@@ -1,4 +1,5 @@
 #include "bench/contact_rows.h"
+#include "bench/logger_rows.h"
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
 #include "bench/plan_rows.h"
@@ -13,9 +14,10 @@ namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
-                           sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
-                           planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+  for (const auto& some :
+       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), loggerBenchmarks(),
+        sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(), planBenchmarks(),
+        reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
