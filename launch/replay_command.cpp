@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +12,7 @@
 #include "launch/replay.h"
 #include "launch/replay_console.h"
 #include "launch/replay_rerun.h"
+#include "logger/run_record.h"
 #include "messaging/process.h"
 
 namespace fastball::launch {
@@ -22,8 +25,34 @@ struct Options {
   ReplayOptions replay;
 };
 
+/// A folder for the configuration of a recorded run, while it is needed.
+class RecordedConfiguration {
+ public:
+  explicit RecordedConfiguration(const std::string& log)
+      : folder_(std::filesystem::temp_directory_path() /
+                fmt::format("fastball-rerun-{}", getpid())) {
+    experiment_ = logger::restoreConfiguration(log, folder_.string());
+  }
+  ~RecordedConfiguration() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  RecordedConfiguration(const RecordedConfiguration&) = delete;
+  RecordedConfiguration& operator=(const RecordedConfiguration&) = delete;
+  /// Empty: the log has none.
+  const std::string& experiment() const { return experiment_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::string experiment_;
+};
+
 int runAgain(const Options& options) {
-  const auto channels = rerun(options.rerun, options.log, config::experimentPath(options.config));
+  const RecordedConfiguration recorded_configuration(options.log);
+  const std::string config = options.config.empty() && !recorded_configuration.experiment().empty()
+                                 ? recorded_configuration.experiment()
+                                 : config::experimentPath(options.config);
+  const auto channels = rerun(options.rerun, options.log, config);
   int64_t recorded = 0, equal = 0;
   for (const auto& [name, channel] : channels) {
     std::cout << comparisonLine(name, channel) << '\n';
@@ -82,7 +111,9 @@ void addFlags(CLI::App& command, Options& options) {
       .add_option("--rerun", options.rerun,
                   "Feed the recorded input to this process and compare all that it says")
       ->check(CLI::IsMember(rerunProcesses()));
-  command.add_option("--config", options.config, "Experiment file of the process run again");
+  command.add_option(
+      "--config", options.config,
+      "Experiment file of the process run again; default: that recorded with the log");
   command.add_option("--lcm-url", options.lcm_url, "Where to say the messages")
       ->capture_default_str();
 }

@@ -16,6 +16,8 @@ namespace {
 constexpr int64_t kStatusPeriodUs = 1'000'000;
 /// How often it looks whether the log is still whole.
 constexpr int64_t kWatchPeriodUs = 100'000;
+/// So long without a drop, and dropping has ended: a slow disk drops now and then.
+constexpr int64_t kDropsEndUs = 2'000'000;
 /// LCM talks to itself on this channel when it starts.
 constexpr const char* kSelfTest = "LCM_SELF_TEST";
 
@@ -95,12 +97,17 @@ class LoggerNode : public messaging::Node {
         spdlog::warn("writing to '{}' goes on", status.files.back());
     }
     failure_ = status.failure;
-    const bool dropping = dropped > dropped_;
-    if (dropping && !dropping_)
-      spdlog::error("dropping messages: {} MB wait for the disk", recorder_.queue().bytes() >> 20);
-    if (dropping_ && !dropping)
+    const int64_t now_us = clock_.monotonicUs();
+    if (dropped > dropped_) {
+      last_drop_us_ = now_us;
+      if (!dropping_)
+        spdlog::error("dropping messages: {} MB wait for the disk",
+                      recorder_.queue().bytes() / 1'000'000);
+      dropping_ = true;
+    } else if (dropping_ && now_us - last_drop_us_ > kDropsEndUs) {
       spdlog::warn("no more messages are dropped; so far {}", droppedInWords());
-    dropping_ = dropping;
+      dropping_ = false;
+    }
     dropped_ = dropped;
   }
 
@@ -141,6 +148,7 @@ class LoggerNode : public messaging::Node {
   int64_t next_status_us_;
   int64_t missing_ = 0;
   int64_t dropped_ = 0;
+  int64_t last_drop_us_ = 0;
   bool dropping_ = false;
   std::string failure_;
 };

@@ -41,6 +41,13 @@ nlohmann::json configurationTexts(const std::filesystem::path& config_path) {
   return texts;
 }
 
+/// The record of a log; an empty object if there is none.
+nlohmann::json readRecord(const std::string& log_path) {
+  std::ifstream file(runRecordPath(log_path));
+  auto json = file ? nlohmann::json::parse(file, nullptr, false) : nlohmann::json();
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
 /// All or nothing, so that a full disk cannot cost the record that is there. Channels and paths may be any bytes.
 bool writeWhole(const std::string& path, const nlohmann::json& json) {
   const std::string unfinished = path + ".new";
@@ -74,15 +81,33 @@ void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_
         fmt::format("cannot write the record of the run '{}'", runRecordPath(log_path)));
 }
 
+std::string restoreConfiguration(const std::string& log_path, const std::string& folder) {
+  namespace fs = std::filesystem;
+  const nlohmann::json json = readRecord(log_path);
+  const std::string experiment = fs::path(json.value("config", "")).filename().string();
+  const auto texts = json.value("configuration", nlohmann::json::object());
+  if (experiment.empty() || !texts.contains(experiment))
+    return "";
+  for (const auto& [name, text] : texts.items()) {
+    const fs::path relative = fs::path(name).lexically_normal();
+    if (relative.is_absolute() || relative.begin()->string() == "..")
+      throw std::invalid_argument(
+          fmt::format("'{}' names a configuration file '{}' outside its folder",
+                      runRecordPath(log_path), name));
+    const fs::path path = fs::path(folder) / relative;
+    fs::create_directories(path.parent_path());
+    std::ofstream file(path);
+    if (!(file << text.get<std::string>()) || !file.flush())
+      throw std::runtime_error(fmt::format("cannot write '{}'", path.string()));
+  }
+  return (fs::path(folder) / experiment).string();
+}
+
 void addRecordingToRunRecord(const std::string& log_path,
                              const Recorder& recorder,
                              int64_t missing) {
-  const std::string path = runRecordPath(log_path);
-  std::ifstream file(path);
-  if (!file)
-    return;
-  auto json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object())
+  nlohmann::json json = readRecord(log_path);
+  if (json.empty())
     return;
   const auto status = recorder.status();
   auto& recording = json["recording"];
@@ -96,8 +121,8 @@ void addRecordingToRunRecord(const std::string& log_path,
                                      {"first_utime", dropped.first_utime},
                                      {"last_utime", dropped.last_utime}};
   }
-  if (!writeWhole(path, json))
-    spdlog::error("cannot write the record of the run '{}'", path);
+  if (!writeWhole(runRecordPath(log_path), json))
+    spdlog::error("cannot write the record of the run '{}'", runRecordPath(log_path));
 }
 
 }  // namespace fastball::logger

@@ -23,6 +23,12 @@ std::string runRecordPath(const std::string& log_path);
 /// @throw std::invalid_argument if it cannot be written or the configuration cannot be read.
 void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_t start_utime);
 
+/// Writes the configuration files that the record of a log holds into `folder`.
+/// @return path of the experiment file, or empty if there is no record or it holds none.
+/// @throw std::invalid_argument if a name in the record leads out of the folder.
+/// @throw std::runtime_error if a file cannot be written.
+std::string restoreConfiguration(const std::string& log_path, const std::string& folder);
+
 /// Adds to the record, if there is one, what became of the recording: files, messages, bytes, messages missing by their sequence
 /// numbers, and for each channel how many were dropped, from when to when. A failure is said on standard error.
 void addRecordingToRunRecord(const std::string& log_path,

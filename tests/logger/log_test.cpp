@@ -151,5 +151,26 @@ TEST_F(LogFiles, TheRecordBesideTheLogHoldsTheConfigurationAsItWas) {
   EXPECT_EQ(record.at("configuration").at("arm.yaml"), "profile: wam4-48v\n");
 }
 
+TEST_F(LogFiles, TheConfigurationComesBackFromTheRecord) {
+  std::filesystem::create_directories(path("config/arm"));
+  std::ofstream(path("config/trial.yaml")) << "arm: arm/a.yaml\n";
+  std::ofstream(path("config/arm/a.yaml")) << "profile: b\n";
+  writeRunRecord(path("a.lcmlog"), {"0.1.0", "", path("config/trial.yaml"), 4}, 17);
+  std::filesystem::remove_all(path("config"));
+  EXPECT_EQ(restoreConfiguration(path("a.lcmlog"), path("back")), path("back/trial.yaml"));
+  std::ifstream file(path("back/arm/a.yaml"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "profile: b\n");
+  EXPECT_EQ(restoreConfiguration(path("b.lcmlog"), path("none")), "");
+}
+
+TEST_F(LogFiles, ARecordWritesNothingOutsideItsFolder) {
+  for (const char* name : {"../evil.yaml", "/tmp/evil.yaml", "arm/../../evil.yaml"}) {
+    std::ofstream(runRecordPath(path("a.lcmlog")))
+        << nlohmann::json{{"config", "e.yaml"}, {"configuration", {{"e.yaml", ""}, {name, "x"}}}};
+    EXPECT_THROW(restoreConfiguration(path("a.lcmlog"), path("back")), std::invalid_argument);
+    EXPECT_FALSE(std::filesystem::exists(path("evil.yaml")));
+  }
+}
+
 }  // namespace
 }  // namespace fastball::logger
