@@ -6,6 +6,7 @@
 
 #include "model/ball_flight.h"
 #include "vision_tracker/camera_constants.h"
+#include "vision_tracker/flight_path.h"
 
 namespace fastball::vision_tracker {
 
@@ -14,8 +15,6 @@ inline double seconds(int64_t from, int64_t to) {
   return static_cast<double>(to - from) * 1e-6;
 }
 
-/// What a flight is determined by: position, velocity, drag.
-constexpr int kFlightParameters = 7;
 using FlightVector = Eigen::Matrix<double, kFlightParameters, 1>;
 using FlightCovariance = Eigen::Matrix<double, kFlightParameters, kFlightParameters>;
 using FlightGain = Eigen::Matrix<double, kFlightParameters, kCameraConstants>;
@@ -26,6 +25,8 @@ struct Observation {
   int camera = 0;                                    ///< index
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< [px]
   Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();     ///< [px^2]
+  double radius = 0;                                 ///< [px], mean radius of the outline
+  double radius_variance = 0;                        ///< [px^2]; 0: the radius was not measured
 };
 
 /// What is known of every flight before it is seen.
@@ -38,25 +39,41 @@ struct FlightPrior {
   /// the shading leaves.
   double bias_sigma = 0;
   CalibrationSigma calibration = {};
+  /// [s], standard deviation of each camera's clock against the first one's; 0: one trigger for all. Estimated.
+  double clock_sigma = 0;
+  /// [1/s], standard deviation per axis of the lift S of a spinning ball, a += S x v; 0: none. Estimated.
+  double magnus_sigma = 0;
+  /// Relative, of an error of the measured radii that stays the same through a flight. Estimated; only a single camera's radii
+  /// are used.
+  double radius_sigma = 0.01;
 };
 
 /// A flight fitted to observations.
 struct FlightEstimate {
-  int64_t utime = 0;  ///< [us], time of `start`
+  int64_t utime = 0;  ///< [us], time of `start`, by the first camera's clock
   model::BallState start;
-  double drag = 0;                                  ///< [1/m]
-  FlightCovariance cov = FlightCovariance::Zero();  ///< of (p, v, k) at utime
-  /// The part of `cov` that noise and the drag's prior make: without the errors that stay the same through a flight.
+  double drag = 0;                                 ///< [1/m]
+  Eigen::Vector3d lift = Eigen::Vector3d::Zero();  ///< S [1/s]
+  /// Of (p, v, k, S) at utime.
+  FlightCovariance cov = FlightCovariance::Zero();
+  /// The part of `cov` that noise and the priors make: without the errors that stay the same through a flight.
   FlightCovariance noise_cov = FlightCovariance::Zero();
-  /// Of each camera: d (p, v, k) / d its constants. cov = noise_cov + sum gain S gain^T.
+  /// Of each camera: d (p, v, k, S) / d its constants. cov = noise_cov + sum gain S gain^T.
   std::vector<FlightGain> gains;
+  /// [s], of each camera: how far its clock is ahead of the first one's, and the standard deviation of that.
+  std::vector<double> clock, clock_sigma;
   double residual_px = 0;  ///< [px], rms per axis of the observations used
   /// Standard deviation of the residuals over that which the observations' covariances say; it is in `cov`. A few residuals
   /// hardly move it from 1.
   double scale = 1;
   int used = 0;  ///< observations that were not cut away
 
+  /// The ball at a time [us] of the first camera's clock.
   model::BallState at(int64_t time, double gravity) const;
+  /// From one state of this flight to another, `duration` [s] later.
+  model::BallState onward(const model::BallState& state, double duration, double gravity) const;
+  /// [s], from the flight's start to what a camera's clock calls `time`.
+  double sinceStart(int64_t time, int camera) const;
 };
 
 }  // namespace fastball::vision_tracker

@@ -14,9 +14,9 @@ std::optional<FlightEstimate> solved(FlightProblem& problem, int robust) {
   for (int i = 0; i < kIterations; ++i) {
     if (!problem.evaluate())
       return std::nullopt;
-    FlightVector change;
+    FlightProblem::Unknowns change;
     const bool cutting = i >= robust;
-    const FlightCovariance information = problem.step(cutting, &change);
+    const FlightProblem::Information information = problem.step(cutting, &change);
     if (!change.allFinite())
       return std::nullopt;
     problem.move(change);
@@ -41,8 +41,8 @@ std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observat
   if (observations.size() < first + kLeastObservations)
     return std::nullopt;
   FlightProblem problem(observations, first, cameras, prior);
-  problem.start(model::fly(guess, seconds(guess_utime, problem.utime()), prior.drag, prior.gravity),
-                prior.drag);
+  problem.start(
+      model::fly(guess, seconds(guess_utime, problem.utime()), prior.drag, prior.gravity));
   return solved(problem, kRobustIterations);
 }
 
@@ -54,7 +54,7 @@ std::optional<FlightEstimate> refitFlight(const std::vector<Observation>& observ
   if (observations.size() < first + kLeastObservations)
     return std::nullopt;
   FlightProblem problem(observations, first, cameras, prior);
-  problem.start(last.at(problem.utime(), prior.gravity), last.drag);
+  problem.start(last);
   return solved(problem, 0);
 }
 

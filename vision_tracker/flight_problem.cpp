@@ -15,7 +15,22 @@ constexpr double kHuber = 2.0;  // standard deviations
 constexpr double kCut = 4.5;    // standard deviations
 constexpr double kTrust =
     16;  // the observations' own covariances count as much as so many residuals
-constexpr double kMedian = 1.1774;  // of the length of a two-dimensional normal vector
+// Medians of the length of a normal vector of two and of three dimensions.
+constexpr double kMedian2 = 1.1774, kMedian3 = 1.5382;
+
+/// d mean radius / d p_W, of an outline with this mean radius [px]: its area goes as (c^2 - R^2)^1/2 (Z^2 - R^2)^-3/2. What the
+/// lens changes across the image is left out.
+Eigen::RowVector3d radiusSlope(const model::Camera& camera,
+                               const Eigen::Vector3d& p_W,
+                               double ball_radius,
+                               double mean_radius) {
+  const Eigen::Vector3d c = camera.toCamera(p_W);
+  const double squared = ball_radius * ball_radius;
+  const Eigen::Vector3d slope =
+      mean_radius * (0.5 / (c.squaredNorm() - squared) * c -
+                     1.5 * c.z() / (c.z() * c.z() - squared) * Eigen::Vector3d::UnitZ());
+  return slope.transpose() * camera.R_CW;
+}
 
 }  // namespace
 
@@ -23,41 +38,95 @@ FlightProblem::FlightProblem(const std::vector<Observation>& observations,
                              std::size_t first,
                              const std::vector<model::Camera>& cameras,
                              const FlightPrior& prior)
-    : observations_(observations), first_(first), cameras_(cameras), prior_(prior) {
-  residuals_.resize(observations.size() - first);
+    : observations_(observations),
+      first_(first),
+      cameras_(cameras),
+      prior_(prior),
+      with_radius_(cameras.size() == 1),
+      residuals_(observations.size() - first),
+      estimated_(kUnknowns, true) {
+  mean_[6] = prior.drag;
+  prior_weight_[6] = 1 / (prior.drag_sigma * prior.drag_sigma);
+  const auto know = [&](int i, double sigma, bool used) {
+    estimated_[static_cast<std::size_t>(i)] = used && sigma > 0;
+    prior_weight_[i] = used && sigma > 0 ? 1 / (sigma * sigma) : 1;
+  };
+  for (int i = 7; i < kClock; ++i)
+    know(i, prior.magnus_sigma, true);
+  for (int camera = 1; camera < kMostCameras; ++camera)
+    know(kClock + camera - 1, prior.clock_sigma, camera < static_cast<int>(cameras.size()));
+  know(kSize, prior.radius_sigma, with_radius_);
 }
 
-void FlightProblem::start(const model::BallState& state, double drag) {
+void FlightProblem::start(const model::BallState& state) {
+  x_ = mean_;
   x_.head<3>() = state.p_WBall;
   x_.segment<3>(3) = state.v_WBall;
-  x_[6] = drag;
+}
+
+void FlightProblem::start(const FlightEstimate& flight) {
+  start(flight.at(utime(), prior_.gravity));
+  x_[6] = flight.drag;
+  x_.segment<3>(7) = flight.lift;
+  for (std::size_t camera = 1; camera < flight.clock.size(); ++camera)
+    x_[kClock + static_cast<int>(camera) - 1] = flight.clock[camera];
 }
 
 bool FlightProblem::evaluate() {
-  FlightPath path({x_.head<3>(), x_.segment<3>(3)}, x_[6], prior_.gravity);
+  FlightPath path({x_.head<3>(), x_.segment<3>(3)}, x_[6], prior_.gravity, x_.segment<3>(7),
+                  prior_.magnus_sigma > 0);
   std::vector<double> distances;
   distances.reserve(residuals_.size());
   for (std::size_t i = 0; i < residuals_.size(); ++i) {
     const Observation& o = observations_[first_ + i];
-    path.moveTo(seconds(utime(), o.utime));
+    path.moveTo(seconds(utime(), o.utime) - clockOf(o.camera));
     const model::Camera& camera = cameras_[static_cast<std::size_t>(o.camera)];
-    const Eigen::Vector3d p_W = path.state().p_WBall;
-    if (!(camera.toCamera(p_W).z() > 3 * prior_.ball_radius))
+    if (!(camera.toCamera(path.state().p_WBall).z() > 3 * prior_.ball_radius))
       return false;
-    Eigen::Matrix<double, 2, 3> projection;
-    const Eigen::Vector2d centre = outlineCentre(camera, p_W, prior_.ball_radius, &projection);
-    Residual& r = residuals_[i];
-    r.error = o.centre - centre;
-    r.jacobian = projection * path.sensitivity().topRows<3>();
-    r.constants = byConstants(camera, p_W, centre, projection);
-    r.weight = o.cov.inverse();
-    r.distance = std::sqrt(r.error.dot(r.weight * r.error));
-    distances.push_back(r.distance);
+    compare(o, path.state(), path.sensitivity(), residuals_[i]);
+    distances.push_back(residuals_[i].distance);
   }
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
-  spread_ = std::max(1.0, *middle / kMedian);
+  spread_ = std::max(1.0, *middle / (with_radius_ ? kMedian3 : kMedian2));
   return std::isfinite(spread_);
+}
+
+void FlightProblem::compare(const Observation& o,
+                            const model::BallState& ball,
+                            const FlightSensitivity& sensitivity,
+                            Residual& r) const {
+  const model::Camera& camera = cameras_[static_cast<std::size_t>(o.camera)];
+  const Eigen::Vector3d& p_W = ball.p_WBall;
+  Eigen::Matrix<double, 2, 3> projection;
+  const Eigen::Vector2d centre = outlineCentre(camera, p_W, prior_.ball_radius, &projection);
+  r.error.setZero();
+  r.error.head<2>() = o.centre - centre;
+  r.jacobian.setZero();
+  r.jacobian.topLeftCorner<2, kFlightParameters>() = projection * sensitivity.topRows<3>();
+  if (o.camera > 0 && prior_.clock_sigma > 0)
+    r.jacobian.col(kClock + o.camera - 1).head<2>() = -projection * ball.v_WBall;
+  r.constants = byConstants(camera, p_W, centre, projection);
+  r.weight.setZero();
+  r.weight.topLeftCorner<2, 2>() = o.cov.inverse();
+  if (with_radius_ && o.radius_variance > 0)
+    compareRadius(o, p_W, sensitivity, r);
+  r.distance = std::sqrt(r.error.dot(r.weight * r.error));
+}
+
+void FlightProblem::compareRadius(const Observation& o,
+                                  const Eigen::Vector3d& p_W,
+                                  const FlightSensitivity& sensitivity,
+                                  Residual& r) const {
+  const model::Camera& camera = cameras_[static_cast<std::size_t>(o.camera)];
+  const double radius = sphereOutline(camera, p_W, prior_.ball_radius).meanRadius();
+  r.error[2] = o.radius - radius * (1 + x_[kSize]);
+  r.jacobian.row(2).head<kFlightParameters>() =
+      (1 + x_[kSize]) * radiusSlope(camera, p_W, prior_.ball_radius, radius) *
+      sensitivity.topRows<3>();
+  if (estimated_[kSize])
+    r.jacobian(2, kSize) = radius;
+  r.weight(2, 2) = 1 / o.radius_variance;
 }
 
 double FlightProblem::weight(const Residual& r, bool cutting) const {
@@ -66,63 +135,79 @@ double FlightProblem::weight(const Residual& r, bool cutting) const {
   return std::min(1.0, kHuber * spread_ / std::max(r.distance, 1e-12));
 }
 
-FlightCovariance FlightProblem::step(bool cutting, FlightVector* change) const {
-  FlightCovariance information = FlightCovariance::Zero();
-  FlightVector gradient = FlightVector::Zero();
+FlightProblem::Information FlightProblem::step(bool cutting, Unknowns* change) const {
+  Information information = Information::Zero();
+  Unknowns gradient = Unknowns::Zero();
   for (const Residual& r : residuals_) {
     const double w = weight(r, cutting);
     if (w == 0)
       continue;
-    const Eigen::Matrix<double, kFlightParameters, 2> half = w * r.jacobian.transpose() * r.weight;
-    information += half * r.jacobian;
+    const Eigen::Matrix<double, kUnknowns, 3> half = w * r.jacobian.transpose() * r.weight;
+    information.noalias() += half * r.jacobian;
     gradient += half * r.error;
   }
-  information(6, 6) += dragWeight();
-  gradient[6] += dragWeight() * (prior_.drag - x_[6]);
-  *change = information.ldlt().solve(gradient);
+  gradient += prior_weight_.cwiseProduct(mean_ - x_);
+  Information all = information;
+  all.diagonal() += prior_weight_;
+  *change = all.ldlt().solve(gradient);
   return information;
 }
 
-FlightEstimate FlightProblem::estimate(FlightCovariance information) const {
+FlightEstimate FlightProblem::estimate(const Information& information) const {
   FlightEstimate e;
   e.utime = utime();
   e.start = {x_.head<3>(), x_.segment<3>(3)};
   e.drag = x_[6];
+  e.lift = x_.segment<3>(7);
   double squares = 0, normalised = 0;
   for (const Residual& r : residuals_) {
     if (weight(r, true) == 0)
       continue;
     ++e.used;
-    squares += r.error.squaredNorm();
+    squares += r.error.head<2>().squaredNorm();
     normalised += r.distance * r.distance;
   }
   e.residual_px = std::sqrt(squares / std::max(1, 2 * e.used));
-  const double freedom = std::max(1.0, 2.0 * e.used - 6);
+  const double freedom = std::max(1.0, (with_radius_ ? 3.0 : 2.0) * e.used - 6);
   e.scale = std::sqrt((kTrust + normalised) / (kTrust + freedom));
-  information(6, 6) -= dragWeight();
-  information /= e.scale * e.scale;
-  information(6, 6) += dragWeight();
-  e.noise_cov = information.ldlt().solve(FlightCovariance::Identity());
+  Information all = information / (e.scale * e.scale);
+  all.diagonal() += prior_weight_;
+  Information inverse = all.ldlt().solve(Information::Identity());
+  for (int i = 0; i < kUnknowns; ++i) {
+    if (!estimated_[static_cast<std::size_t>(i)]) {
+      inverse.row(i).setZero();
+      inverse.col(i).setZero();
+    }
+  }
+  e.noise_cov = inverse.topLeftCorner<kFlightParameters, kFlightParameters>();
   e.cov = e.noise_cov;
   const CameraConstants variances = constantVariances(prior_.bias_sigma, prior_.calibration);
-  for (const FlightGain& sum : constantSums()) {
-    const FlightGain gain = e.noise_cov * sum / (e.scale * e.scale);
+  for (const FlightGain& gain : constantSums(inverse / (e.scale * e.scale))) {
     e.cov += gain * variances.asDiagonal() * gain.transpose();
     e.gains.push_back(gain);
+  }
+  for (int camera = 0; camera < static_cast<int>(cameras_.size()); ++camera) {
+    const int i = kClock + camera - 1;
+    e.clock.push_back(clockOf(camera));
+    e.clock_sigma.push_back(camera == 0 ? 0 : std::sqrt(inverse(i, i)));
   }
   return e;
 }
 
-/// sum J^T W G of each camera.
-std::vector<FlightGain> FlightProblem::constantSums() const {
-  std::vector<FlightGain> sums(cameras_.size(), FlightGain::Zero());
+/// inverse sum J^T W G of each camera.
+std::vector<FlightGain> FlightProblem::constantSums(const Information& inverse) const {
+  using Sum = Eigen::Matrix<double, kUnknowns, kCameraConstants>;
+  std::vector<Sum> sums(cameras_.size(), Sum::Zero());
   for (std::size_t i = 0; i < residuals_.size(); ++i) {
     const Residual& r = residuals_[i];
     if (weight(r, true) != 0)
       sums[static_cast<std::size_t>(observations_[first_ + i].camera)] +=
-          r.jacobian.transpose() * r.weight * r.constants;
+          r.jacobian.topRows<2>().transpose() * r.weight.topLeftCorner<2, 2>() * r.constants;
   }
-  return sums;
+  std::vector<FlightGain> gains;
+  for (const Sum& sum : sums)
+    gains.push_back(inverse.topRows<kFlightParameters>() * sum);
+  return gains;
 }
 
 }  // namespace fastball::vision_tracker

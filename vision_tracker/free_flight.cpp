@@ -19,18 +19,24 @@ bool agrees(const std::vector<Observation>& observations,
             const FlightEstimate& flight) {
   constexpr double kGate =
       16;  // squared distance of two dimensions: one in 3000 true ones is refused
-  FlightPath path(flight.start, flight.drag, prior.gravity);
-  path.moveTo(seconds(flight.utime, observations[first].utime));
+  FlightPath path(flight.start, flight.drag, prior.gravity, flight.lift, prior.magnus_sigma > 0);
   for (std::size_t i = first; i < end; ++i) {
     const Observation& o = observations[i];
+    path.moveTo(flight.sinceStart(o.utime, o.camera));
     Eigen::Matrix<double, 2, 3> projection;
     const Eigen::Vector2d centre =
         outlineCentre(cameras[static_cast<std::size_t>(o.camera)], path.state().p_WBall,
                       prior.ball_radius, &projection);
-    const Eigen::Matrix<double, 2, 7> jacobian = projection * path.sensitivity().topRows<3>();
-    const Eigen::Matrix2d cov = flight.scale * flight.scale * o.cov +
-                                jacobian * flight.cov * jacobian.transpose() +
-                                prior.bias_sigma * prior.bias_sigma * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix<double, 2, kFlightParameters> jacobian =
+        projection * path.sensitivity().topRows<3>();
+    Eigen::Matrix2d cov = flight.scale * flight.scale * o.cov +
+                          jacobian * flight.cov * jacobian.transpose() +
+                          prior.bias_sigma * prior.bias_sigma * Eigen::Matrix2d::Identity();
+    const auto camera = static_cast<std::size_t>(o.camera);
+    const double clock_sigma =
+        camera < flight.clock_sigma.size() ? flight.clock_sigma[camera] : prior.clock_sigma;
+    const Eigen::Vector2d late = clock_sigma * (projection * path.state().v_WBall);
+    cov += late * late.transpose();
     const Eigen::Vector2d error = o.centre - centre;
     if (!(error.dot(cov.inverse() * error) < kGate))
       return false;
@@ -55,11 +61,14 @@ std::optional<FlightEstimate> fitFreeFlight(const std::vector<Observation>& obse
                                             const model::BallState& guess,
                                             int64_t guess_utime,
                                             std::size_t* begin) {
-  constexpr std::size_t kLeastTimes = 10;
+  // Free-running cameras see one after the other: as many times more.
+  const std::size_t each = prior.clock_sigma > 0 ? cameras.size() : 1;
+  const std::size_t least_times = 10 * each;
   // Fewer bad times in a row among good ones are outliers, which the fit will cut; a hand that holds the ball leads it away
   // from the flight for good.
-  constexpr std::size_t kBadTimes = 4;
-  constexpr std::size_t kMargin = 2;  // times after the first that agrees: a finger may still touch
+  const std::size_t bad_times = 4 * each;
+  const std::size_t margin =
+      2 * each;  // times after the first that agrees: a finger may still touch
   const std::vector<std::size_t> times = timesOf(observations);
   const auto end_of = [&](std::size_t k) {
     return k + 1 < times.size() ? times[k + 1] : observations.size();
@@ -68,27 +77,27 @@ std::optional<FlightEstimate> fitFreeFlight(const std::vector<Observation>& obse
     return agrees(observations, times[k], end_of(k), cameras, prior, flight);
   };
   std::size_t first =
-      times.size() - std::min(times.size(), std::max(kLeastTimes, times.size() / 2));
+      times.size() - std::min(times.size(), std::max(least_times, times.size() / 2));
   std::optional<FlightEstimate> flight =
       times.empty() ? std::nullopt
                     : fitFlight(observations, times[first], cameras, prior, guess, guess_utime);
   bool ended = false;
   while (flight && first > 0 && !ended) {
     // Back by a third at most, then fit again: a fit to few predicts the past badly.
-    const std::size_t reach = std::max<std::size_t>(kBadTimes, (times.size() - first) / 3);
+    const std::size_t reach = std::max<std::size_t>(bad_times, (times.size() - first) / 3);
     std::size_t back = first, bad = 0;
     for (std::size_t k = first; k > 0 && first - back < reach && !ended; --k) {
       if (agreed(k - 1, *flight)) {
         back = k - 1;
         bad = 0;
       } else {
-        ended = ++bad == kBadTimes;
+        ended = ++bad == bad_times;
       }
     }
     if (back == first && !ended)
       break;
-    if (ended && times.size() - back > kLeastTimes + kMargin)
-      back += kMargin;
+    if (ended && times.size() - back > least_times + margin)
+      back += margin;
     first = back;
     flight = fitFlight(observations, times[first], cameras, prior, flight->start, flight->utime);
   }

@@ -81,8 +81,7 @@ double ThrowTracker::distanceAt(int64_t utime) const {
 }
 
 model::BallState ThrowTracker::expectedAt(int64_t utime) const {
-  return model::fly(latest_, seconds(latest_utime_, utime), followed_->flight.drag,
-                    options_.prior.gravity);
+  return followed_->flight.onward(latest_, seconds(latest_utime_, utime), options_.prior.gravity);
 }
 
 void ThrowTracker::takeFlight(const FreeFlight& followed) {

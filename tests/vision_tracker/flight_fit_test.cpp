@@ -130,7 +130,8 @@ TEST_F(FlightFit, GainSaysWhatErrorsOfTheCamerasDo) {
       ASSERT_TRUE(landing);
       FlightVector change;
       change << moved.start.p_WBall - flight.start.p_WBall,
-          moved.start.v_WBall - flight.start.v_WBall, moved.drag - flight.drag;
+          moved.start.v_WBall - flight.start.v_WBall, moved.drag - flight.drag,
+          Eigen::Vector3d::Zero();
       const FlightVector expected = flight.gains[camera] * error;
       EXPECT_LT((change - expected).norm(), 0.03 * expected.norm() + 2e-6)
           << "camera " << camera << " constant " << i;
