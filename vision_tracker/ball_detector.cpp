@@ -74,6 +74,7 @@ BallFit uneven(const Blob& blob) {
   fit.radius = std::sqrt(blob.area / kPi);
   const double sigma = kHidden * fit.radius + 0.3 * kStride;
   fit.cov = sigma * sigma * Eigen::Matrix2d::Identity();
+  fit.radius_variance = sigma * sigma;
   fit.converged = true;
   return fit;
 }
@@ -114,6 +115,7 @@ BallFit BallDetector::accepted(BallFit fit,
   const bool sized = std::abs(fit.radius - expected_radius) < tolerance;
   fit.converged = fit.converged && round && bright && sized;
   fit.cov += options_.noise_floor * options_.noise_floor * Eigen::Matrix2d::Identity();
+  fit.radius_variance += options_.noise_floor * options_.noise_floor;
   return fit;
 }
 

@@ -399,7 +399,10 @@ BallFit fitBall(const cv::Mat& image,
   result.residual = std::sqrt(e.square_sum / count);
   result.contrast = e.contrast_sum / std::max(1.0, e.inside_count);
   const double variance = std::max(noise * noise, e.square_sum / (count - kParameters));
-  result.cov = variance * e.information.ldlt().solve(Normal::Identity()).topLeftCorner<2, 2>();
+  const Eigen::Matrix3d cov =
+      variance * e.information.ldlt().solve(Normal::Identity()).topLeftCorner<3, 3>();
+  result.cov = cov.topLeftCorner<2, 2>();
+  result.radius_variance = cov(2, 2);
   result.converged = result.converged && result.cov.allFinite() && result.cov(0, 0) > 0;
   return result;
 }

@@ -19,6 +19,7 @@ struct BallFit {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< [px], of the outline
   double radius = 0;                                 ///< [px], mean radius of the outline
   Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();     ///< [px^2], of the centre, from the residuals
+  double radius_variance = 0;                        ///< [px^2], likewise
   double residual = 0;                               ///< [grey levels], rms
   double contrast = 0;  ///< [grey levels], mean difference from the background
   bool converged = false;

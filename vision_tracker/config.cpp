@@ -53,6 +53,9 @@ TrackerConfig readTracker(const std::string& path) {
   prior.drag = experiment.ball.dragPerMetre();
   prior.drag_sigma = prior.drag * section.number("drag_uncertainty", {1e-3, 10});
   prior.bias_sigma = section.number("bias", {1e-4, 10});
+  prior.clock_sigma = section.number("clock_sigma", {0, 0.1});
+  prior.magnus_sigma = section.number("magnus_sigma", {0, 100});
+  prior.radius_sigma = section.number("radius_uncertainty", {1e-5, 0.5});
   config::Section calibration = section.section("calibration");
   prior.calibration.rotation = calibration.number("rotation", {0, 0.1});
   prior.calibration.position = calibration.number("position", {0, 1});

@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <iterator>
 
+#include "vision_tracker/flight_estimate.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
@@ -13,8 +15,13 @@ constexpr std::size_t kLeastPoints = 6;
 constexpr double kLargestMiss = 2.0;        // [px], reprojection
 constexpr double kLargestSizeError = 0.15;  // of the ball's radius in the image
 constexpr double kTolerance = 0.012;  // [m], of a point from the flight: drag and triangulation
-constexpr double kSlowest = 1.0;      // [m/s]
-constexpr double kFastest = 20.0;     // [m/s]
+constexpr double kDepthTolerance =
+    0.04;  // of the distance, of a point that one camera places by its size
+constexpr double kLongestLink = 0.1;  // [s], between two images in which a thing is the same
+constexpr double kClockSigmas = 3;    // as far as clocks are allowed to be off
+constexpr std::size_t kLooks = 3;
+constexpr double kSlowest = 1.0;   // [m/s]
+constexpr double kFastest = 20.0;  // [m/s]
 
 /// The point nearest to both cameras' rays.
 std::optional<Eigen::Vector3d> between(const model::Camera& a,
@@ -38,52 +45,108 @@ std::optional<Eigen::Vector3d> between(const model::Camera& a,
   return p_W;
 }
 
-bool matches(const model::Camera& camera,
-             const BallFit& fit,
-             const Eigen::Vector3d& p_W,
-             double ball_radius) {
-  const Outline outline = sphereOutline(camera, p_W, ball_radius);
-  return (outline.centre - fit.centre).norm() < kLargestMiss &&
-         std::abs(fit.radius / outline.meanRadius() - 1) < kLargestSizeError;
+/// The thing that `fit` was in an earlier image: the nearest of about its size.
+const BallFit* earlier(const BallFit& fit, const std::vector<BallFit>& before) {
+  const BallFit* nearest = nullptr;
+  for (const BallFit& other : before) {
+    if (std::abs(other.radius / fit.radius - 1) > 2 * kLargestSizeError)
+      continue;
+    if (nearest == nullptr ||
+        (other.centre - fit.centre).norm() < (nearest->centre - fit.centre).norm())
+      nearest = &other;
+  }
+  return nearest;
 }
 
 }  // namespace
 
-std::vector<SpatialPoint> spatialPoints(const Sightings& sightings,
-                                        const std::vector<model::Camera>& cameras,
-                                        double ball_radius) {
-  std::vector<SpatialPoint> points;
-  for (std::size_t i = 0; i < sightings.by_camera.size(); ++i) {
-    for (std::size_t j = i + 1; j < sightings.by_camera.size(); ++j) {
-      for (const BallFit& a : sightings.by_camera[i]) {
-        for (const BallFit& b : sightings.by_camera[j]) {
-          const auto p_W = between(cameras[i], a.centre, cameras[j], b.centre);
-          if (p_W && matches(cameras[i], a, *p_W, ball_radius) &&
-              matches(cameras[j], b, *p_W, ball_radius))
-            points.push_back({*p_W, {static_cast<int>(i), static_cast<int>(j)}, {a, b}});
-        }
-      }
-    }
-  }
-  return points;
+FlightFinder::FlightFinder(double ball_radius, double gravity, double clock_sigma)
+    : ball_radius_(ball_radius), gravity_(gravity), clock_sigma_(clock_sigma) {}
+
+void FlightFinder::reset() {
+  history_.clear();
+  looks_.clear();
 }
 
-FlightFinder::FlightFinder(double ball_radius, double gravity)
-    : ball_radius_(ball_radius), gravity_(gravity) {}
+std::vector<FlightFinder::Thing> FlightFinder::thingsAt(int camera, int64_t utime) const {
+  const std::deque<Look>& looks = looks_[static_cast<std::size_t>(camera)];
+  const Look& last = looks.back();
+  const Look* before = looks.size() > 1 ? &looks[looks.size() - 2] : nullptr;
+  const double gap = before != nullptr ? seconds(before->utime, last.utime) : 0;
+  std::vector<Thing> things;
+  for (const BallFit& fit : last.fits) {
+    Thing thing{{last.utime, camera, fit}, fit};
+    const BallFit* past = gap > 0 && gap < kLongestLink ? earlier(fit, before->fits) : nullptr;
+    if (past != nullptr)
+      thing.velocity = (fit.centre - past->centre) / gap;
+    else if (utime != last.utime)
+      continue;
+    thing.fit.centre += thing.velocity * seconds(last.utime, utime);
+    things.push_back(thing);
+  }
+  return things;
+}
+
+bool FlightFinder::matches(const model::Camera& camera,
+                           const Thing& thing,
+                           const Eigen::Vector3d& p_W) const {
+  const Outline outline = sphereOutline(camera, p_W, ball_radius_);
+  const double miss = kLargestMiss + kClockSigmas * clock_sigma_ * thing.velocity.norm();
+  return (outline.centre - thing.fit.centre).norm() < miss &&
+         std::abs(thing.fit.radius / outline.meanRadius() - 1) < kLargestSizeError;
+}
+
+void FlightFinder::pair(const std::vector<Thing>& a,
+                        const std::vector<Thing>& b,
+                        const std::vector<model::Camera>& cameras,
+                        std::vector<SpatialPoint>& points) const {
+  for (const Thing& one : a) {
+    for (const Thing& other : b) {
+      const model::Camera& camera = cameras[static_cast<std::size_t>(one.seen.camera)];
+      const model::Camera& second = cameras[static_cast<std::size_t>(other.seen.camera)];
+      const auto p_W = between(camera, one.fit.centre, second, other.fit.centre);
+      if (p_W && matches(camera, one, *p_W) && matches(second, other, *p_W))
+        points.push_back({*p_W, {one.seen, other.seen}});
+    }
+  }
+}
+
+void FlightFinder::placeBySize(const std::vector<Thing>& things,
+                               const model::Camera& camera,
+                               std::vector<SpatialPoint>& points) const {
+  for (const Thing& thing : things) {
+    const Eigen::Vector2d n = camera.undistort(thing.fit.centre);
+    // Begin with the pinhole's depth, then scale it by what the outline there is too large.
+    const auto placed = [&](double depth) -> Eigen::Vector3d {
+      return camera.R_CW.transpose() * (depth * Eigen::Vector3d(n.x(), n.y(), 1) - camera.p_CW);
+    };
+    double depth = std::sqrt(camera.fx * camera.fy) * ball_radius_ / thing.fit.radius;
+    if (!(depth > 3 * ball_radius_))
+      continue;
+    depth *= sphereOutline(camera, placed(depth), ball_radius_).meanRadius() / thing.fit.radius;
+    SpatialPoint point{placed(depth), {thing.seen}};
+    point.doubtful_W = (camera.R_CW.transpose() * Eigen::Vector3d(n.x(), n.y(), 1)).normalized();
+    point.doubt = kDepthTolerance * depth;
+    points.push_back(point);
+  }
+}
 
 FlightFinder::Found FlightFinder::pointsOn(const model::BallState& state, int64_t utime) const {
   Found found;
   found.state = state;
   found.utime = utime;
   for (const Moment& moment : history_) {
-    const double t = static_cast<double>(moment.utime - utime) * 1e-6;
+    const double t = seconds(utime, moment.utime);
     if (t < 0)
       continue;
     const Eigen::Vector3d p_W =
         state.p_WBall + t * state.v_WBall - Eigen::Vector3d(0, 0, gravity_ * t * t / 2);
     for (const SpatialPoint& point : moment.points) {
-      if ((point.p_W - p_W).norm() < kTolerance) {
-        found.points.emplace_back(moment.utime, point);
+      const Eigen::Vector3d off = point.p_W - p_W;
+      const double along = off.dot(point.doubtful_W);
+      const Eigen::Vector3d across = off - along * point.doubtful_W;
+      if (across.norm() < kTolerance && std::abs(along) <= point.doubt) {
+        found.points.push_back(point);
         break;
       }
     }
@@ -91,15 +154,55 @@ FlightFinder::Found FlightFinder::pointsOn(const model::BallState& state, int64_
   return found;
 }
 
+std::vector<SpatialPoint>& FlightFinder::pointsAt(int64_t utime) {
+  auto place = history_.end();
+  while (place != history_.begin() && std::prev(place)->utime >= utime)
+    --place;
+  if (place == history_.end() || place->utime != utime)
+    place = history_.insert(place, Moment{utime, {}});
+  return place->points;
+}
+
 std::optional<FlightFinder::Found> FlightFinder::add(const Sightings& sightings,
                                                      const std::vector<model::Camera>& cameras) {
-  history_.push_back({sightings.utime, spatialPoints(sightings, cameras, ball_radius_)});
-  if (history_.size() > kMoments)
+  looks_.resize(cameras.size());
+  std::vector<int> fresh;
+  for (const CameraSightings& seen : sightings) {
+    std::deque<Look>& looks = looks_[static_cast<std::size_t>(seen.camera)];
+    looks.push_back({seen.utime, seen.fits});
+    if (looks.size() > kLooks)
+      looks.pop_front();
+    fresh.push_back(seen.camera);
+  }
+  for (const int i : fresh) {
+    const int64_t utime = looks_[static_cast<std::size_t>(i)].back().utime;
+    if (cameras.size() == 1)
+      placeBySize(thingsAt(i, utime), cameras.front(), pointsAt(utime));
+    for (int j = 0; j < static_cast<int>(cameras.size()); ++j) {
+      const std::deque<Look>& other = looks_[static_cast<std::size_t>(j)];
+      if (j == i || other.empty())
+        continue;
+      const std::deque<Look>& own = looks_[static_cast<std::size_t>(i)];
+      if (std::abs(other.back().utime - utime) <= kSameMoment) {
+        if (i < j)
+          pair(thingsAt(i, utime), thingsAt(j, other.back().utime), cameras, pointsAt(utime));
+      } else if (own.size() > 1 && own[own.size() - 2].utime < other.back().utime) {
+        // The other's last image lies between this camera's last two.
+        const int64_t then = other.back().utime;
+        pair(thingsAt(j, then), thingsAt(i, then), cameras, pointsAt(then));
+      }
+    }
+  }
+  while (history_.size() > kMoments)
     history_.pop_front();
+  return history_.empty() ? std::nullopt : search();
+}
+
+std::optional<FlightFinder::Found> FlightFinder::search() const {
   const Moment& last = history_.back();
   // The longest flights first: they say most.
   for (std::size_t i = 0; i + kLeastPoints <= history_.size(); ++i) {
-    const double t = static_cast<double>(last.utime - history_[i].utime) * 1e-6;
+    const double t = seconds(history_[i].utime, last.utime);
     for (const SpatialPoint& from : history_[i].points) {
       for (const SpatialPoint& to : last.points) {
         const Eigen::Vector3d v_W =

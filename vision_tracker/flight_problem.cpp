@@ -43,6 +43,7 @@ FlightProblem::FlightProblem(const std::vector<Observation>& observations,
       cameras_(cameras),
       prior_(prior),
       with_radius_(cameras.size() == 1),
+      plain_(!with_radius_ && !(prior.clock_sigma > 0) && !(prior.magnus_sigma > 0)),
       residuals_(observations.size() - first),
       estimated_(kUnknowns, true) {
   mean_[6] = prior.drag;
@@ -135,21 +136,42 @@ double FlightProblem::weight(const Residual& r, bool cutting) const {
   return std::min(1.0, kHuber * spread_ / std::max(r.distance, 1e-12));
 }
 
-FlightProblem::Information FlightProblem::step(bool cutting, Unknowns* change) const {
-  Information information = Information::Zero();
-  Unknowns gradient = Unknowns::Zero();
+template <int Rows, int Columns>
+void FlightProblem::addEquations(bool cutting, Information& information, Unknowns& gradient) const {
+  Eigen::Matrix<double, Columns, Columns> squares = Eigen::Matrix<double, Columns, Columns>::Zero();
+  Eigen::Matrix<double, Columns, 1> sum = Eigen::Matrix<double, Columns, 1>::Zero();
   for (const Residual& r : residuals_) {
     const double w = weight(r, cutting);
     if (w == 0)
       continue;
-    const Eigen::Matrix<double, kUnknowns, 3> half = w * r.jacobian.transpose() * r.weight;
-    information.noalias() += half * r.jacobian;
-    gradient += half * r.error;
+    const Eigen::Matrix<double, Rows, Columns> jacobian =
+        r.jacobian.template topLeftCorner<Rows, Columns>();
+    const Eigen::Matrix<double, Columns, Rows> half =
+        w * jacobian.transpose() * r.weight.template topLeftCorner<Rows, Rows>();
+    squares += half * jacobian;
+    sum += half * r.error.template head<Rows>();
   }
+  information.template topLeftCorner<Columns, Columns>() = squares;
+  gradient.template head<Columns>() = sum;
+}
+
+FlightProblem::Information FlightProblem::step(bool cutting, Unknowns* change) const {
+  constexpr int kPlain = 7;  // start and drag
+  Information information = Information::Zero();
+  Unknowns gradient = Unknowns::Zero();
+  if (plain_)
+    addEquations<2, kPlain>(cutting, information, gradient);
+  else
+    addEquations<3, kUnknowns>(cutting, information, gradient);
   gradient += prior_weight_.cwiseProduct(mean_ - x_);
   Information all = information;
   all.diagonal() += prior_weight_;
-  *change = all.ldlt().solve(gradient);
+  change->setZero();
+  if (plain_)
+    change->head<kPlain>() =
+        all.topLeftCorner<kPlain, kPlain>().ldlt().solve(gradient.head<kPlain>());
+  else
+    *change = all.ldlt().solve(gradient);
   return information;
 }
 

@@ -59,6 +59,8 @@ class FlightProblem {
                      const FlightSensitivity& sensitivity,
                      Residual& residual) const;
   double weight(const Residual& residual, bool cutting) const;
+  template <int Rows, int Columns>
+  void addEquations(bool cutting, Information& information, Unknowns& gradient) const;
   double clockOf(int camera) const { return camera == 0 ? 0 : x_[kClock + camera - 1]; }
   std::vector<FlightGain> constantSums(const Information& inverse) const;
 
@@ -67,6 +69,7 @@ class FlightProblem {
   const std::vector<model::Camera>& cameras_;
   const FlightPrior& prior_;
   bool with_radius_;
+  bool plain_;  ///< nothing but start and drag is estimated
   std::vector<Residual> residuals_;
   Unknowns x_ = Unknowns::Zero(), mean_ = Unknowns::Zero();
   /// Inverse variances of what is known before; 1 for what is not to be estimated, which no observation moves.

@@ -12,8 +12,7 @@
 namespace fastball::vision_tracker {
 namespace {
 
-constexpr int64_t kSameMoment = 500;  // [us], cameras' images nearer than this belong together
-constexpr int kImagesToLearn = 4;     // of each camera, before foreground means anything
+constexpr int kImagesToLearn = 4;  // of each camera, before foreground means anything
 constexpr double kClear = 1.2;  // ball radii before the target plane; nearer it may touch the ring
 constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the limb
 constexpr int kSureTrack = 40;           // observations that no arm imitates
@@ -33,7 +32,8 @@ bool same(const CameraSetup& a, const CameraSetup& b) {
 }  // namespace
 
 ThrowTracker::ThrowTracker(const TrackerOptions& options)
-    : options_(options), finder_(options.prior.ball_radius, options.prior.gravity) {
+    : options_(options),
+      finder_(options.prior.ball_radius, options.prior.gravity, options.prior.clock_sigma) {
   cv::setNumThreads(0);  // the images are small and the other processes need the cores
 }
 
@@ -63,7 +63,8 @@ void ThrowTracker::begin(const model::Target& target) {
     eye.way = {};
     eye.followed = 0;
   }
-  moment_ = {};
+  moment_.clear();
+  moment_utime_ = 0;
   seen_ = 0;
   known_ = 0;
   observations_.clear();
@@ -76,12 +77,14 @@ void ThrowTracker::begin(const model::Target& target) {
   landing_report_.reset();
 }
 
-double ThrowTracker::distanceAt(int64_t utime) const {
-  return target_.distance(expectedAt(utime).p_WBall);
+double ThrowTracker::distanceAt(int64_t utime, int camera) const {
+  return target_.distance(expectedAt(utime, camera).p_WBall);
 }
 
-model::BallState ThrowTracker::expectedAt(int64_t utime) const {
-  return followed_->flight.onward(latest_, seconds(latest_utime_, utime), options_.prior.gravity);
+model::BallState ThrowTracker::expectedAt(int64_t utime, int camera) const {
+  const FlightEstimate& flight = followed_->flight;
+  const double duration = flight.sinceStart(utime, camera) - seconds(flight.utime, latest_utime_);
+  return flight.onward(latest_, duration, options_.prior.gravity);
 }
 
 void ThrowTracker::takeFlight(const FreeFlight& followed) {
@@ -98,8 +101,7 @@ void ThrowTracker::expectWay() {
     eye.way = {};
     for (int k = 0; k <= kPieces && left > 0; ++k) {
       const cv::Rect area = eye.detector.area(
-          model::fly(latest_, left * k / kPieces, followed_->flight.drag, options_.prior.gravity)
-              .p_WBall);
+          followed_->flight.onward(latest_, left * k / kPieces, options_.prior.gravity).p_WBall);
       if (!area.empty())
         eye.way |=
             area + cv::Size(2 * kWayMargin, 2 * kWayMargin) - cv::Point(kWayMargin, kWayMargin);
@@ -111,22 +113,23 @@ Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
   if (state_ == State::kLanded)
     return {};
   ++images_;
-  if (seen_ != 0 && utime - moment_.utime > kSameMoment) {
+  if (seen_ != 0 && utime - moment_utime_ > kSameMoment) {
     closeMoment();
     if (state_ == State::kLanded)
       return {};
   }
   if (seen_ == 0) {
-    moment_ = {utime, std::vector<std::vector<BallFit>>(eyes_.size())};
+    moment_.clear();
+    moment_utime_ = utime;
     known_ = observations_.size();
   }
   Sighting sighting;
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
   cv::Rect leave;
   if (eye.background.images() >= kImagesToLearn) {
-    sighting = followed_ ? followIn(camera, utime, image) : searchIn(camera, image);
+    sighting = followed_ ? followIn(camera, utime, image) : searchIn(camera, utime, image);
     if (followed_)
-      leave = eye.detector.area(expectedAt(utime).p_WBall);
+      leave = eye.detector.area(expectedAt(utime, camera).p_WBall);
   }
   // A track that is sure needs the background on its way only, which was learned before: half as often will do.
   const bool sure = followed_ && !eye.way.empty();
@@ -138,16 +141,16 @@ Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
   return sighting;
 }
 
-Sighting ThrowTracker::searchIn(int camera, const cv::Mat& image) {
+Sighting ThrowTracker::searchIn(int camera, int64_t utime, const cv::Mat& image) {
   const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  std::vector<BallFit>& fits = moment_.by_camera[static_cast<std::size_t>(camera)];
-  fits = eye.detector.search(image, eye.background);
+  moment_.push_back({camera, utime, eye.detector.search(image, eye.background)});
+  const std::vector<BallFit>& fits = moment_.back().fits;
   return fits.empty() ? Sighting{} : Sighting{true, fits.front()};
 }
 
 Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image) {
   const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  const model::BallState expected = expectedAt(utime);
+  const model::BallState expected = expectedAt(utime, camera);
   // A young track predicts badly, and so does one that has missed the ball.
   const double uncertainty = (followed_->flight.used < 24 ? 8.0 : 4.0) + 2.0 * misses_;
   const BallFit fit =
@@ -168,8 +171,9 @@ void ThrowTracker::observe(int64_t utime,
   const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
   const double radius = sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
   const double off = std::max(0.0, std::abs(fit.radius - radius) - kSizeTolerance * radius);
-  observations_.push_back(
-      {utime, camera, fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity()});
+  observations_.push_back({utime, camera, fit.centre,
+                           fit.cov + off * off * Eigen::Matrix2d::Identity(), fit.radius,
+                           fit.radius_variance + off * off});
 }
 
 void ThrowTracker::closeMoment() {
@@ -185,7 +189,7 @@ void ThrowTracker::closeMoment() {
   } else {
     ++misses_;
   }
-  if (followed_ && passed(moment_.utime))
+  if (followed_ && passed(moment_utime_))
     land();
   else if (followed_ && misses_ > std::min(kMostMisses, 3 + followed_->flight.used / 8))
     loseTrack();
@@ -198,9 +202,12 @@ bool ThrowTracker::passed(int64_t utime) const {
 
 void ThrowTracker::startTrack(const FlightFinder::Found& found) {
   observations_.clear();
-  for (const auto& [utime, point] : found.points)
-    for (const int k : {0, 1})
-      observe(utime, point.cameras[k], point.fits[k], point.p_W);
+  for (const SpatialPoint& point : found.points)
+    for (const PointView& view : point.views)
+      observe(view.utime, view.camera, view.fit, point.p_W);
+  // Free-running cameras see one after the other.
+  std::stable_sort(observations_.begin(), observations_.end(),
+                   [](const Observation& a, const Observation& b) { return a.utime < b.utime; });
   const auto flight =
       fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
   misses_ = 0;
@@ -232,6 +239,8 @@ void ThrowTracker::updateTrack() {
   report.state = latest_;
   report.drag = followed_->flight.drag;
   report.landing = *predicted_;
+  report.clock = followed_->flight.clock;
+  report.clock_sigma = followed_->flight.clock_sigma;
   track_report_ = report;
 }
 
@@ -241,7 +250,8 @@ void ThrowTracker::loseTrack() {
   const double gap = predicted_ ? static_cast<double>(predicted_->utime - last) * 1e-6 : 1e9;
   if (sure && gap <= options_.longest_gap)
     return;  // it is nearly there, and the flight says the rest
-  lost_ = fmt::format("the ball was lost {:.3f} m before the target plane", distanceAt(last));
+  lost_ = fmt::format("the ball was lost {:.3f} m before the target plane",
+                      distanceAt(last, observations_.back().camera));
   if (sure) {
     giveUp(lost_);
     return;
@@ -259,7 +269,7 @@ void ThrowTracker::land() {
   // The track's own idea of the distance was younger than the flight is now: choose the clear observations again.
   const auto end =
       std::remove_if(observations_.begin(), observations_.end(), [&](const Observation& o) {
-        return distanceAt(o.utime) <= kClear * options_.prior.ball_radius;
+        return distanceAt(o.utime, o.camera) <= kClear * options_.prior.ball_radius;
       });
   observations_.erase(end, observations_.end());
   const auto flight = fitFreeFlight(observations_, cameras_, options_.prior,
@@ -280,7 +290,8 @@ void ThrowTracker::land() {
   }
   followed_ = FreeFlight{*flight};
   predicted_ = landing;
-  landing_report_ = LandingReport{true, "", *landing, flight->used, flight->residual_px};
+  landing_report_ = LandingReport{
+      true, "", *landing, flight->used, flight->residual_px, flight->clock, flight->clock_sigma};
   state_ = State::kLanded;
 }
 
@@ -301,7 +312,7 @@ void ThrowTracker::end() {
     giveUp("no image came");
   else if (followed_)
     giveUp(fmt::format("the images ended when the ball was {:.3f} m before the target plane",
-                       distanceAt(observations_.back().utime)));
+                       distanceAt(observations_.back().utime, observations_.back().camera)));
   else
     giveUp(lost_.empty()
                ? fmt::format("nothing that flies like the ball is in the {} images", images_)

@@ -42,8 +42,9 @@ struct TrackReport {
   int64_t utime = 0;     ///< [us], of `state`
   int observations = 0;  ///< used by the fit
   model::BallState state;
-  double drag = 0;          ///< [1/m]
-  LandingEstimate landing;  ///< predicted
+  double drag = 0;                         ///< [1/m]
+  LandingEstimate landing;                 ///< predicted
+  std::vector<double> clock, clock_sigma;  ///< [s], as FlightEstimate
 };
 
 /// The result of a throw.
@@ -53,6 +54,7 @@ struct LandingReport {
   LandingEstimate landing;
   int observations = 0;
   double residual_px = 0;
+  std::vector<double> clock, clock_sigma;  ///< [s], as FlightEstimate
 };
 
 /// Follows one ball through the images of all cameras, from the first that shows it flying to the target plane. The images
@@ -88,7 +90,7 @@ class ThrowTracker {
         {};  ///< where the ball is still to come; the background of the rest no longer matters
     int followed = 0;  ///< images with such a way
   };
-  Sighting searchIn(int camera, const cv::Mat& image);
+  Sighting searchIn(int camera, int64_t utime, const cv::Mat& image);
   Sighting followIn(int camera, int64_t utime, const cv::Mat& image);
   void observe(int64_t utime, int camera, const BallFit& fit, const Eigen::Vector3d& p_WBall);
   /// All images of a time have been seen.
@@ -99,11 +101,12 @@ class ThrowTracker {
   void land();
   void giveUp(const std::string& why);
   bool passed(int64_t utime) const;
-  model::BallState expectedAt(int64_t utime) const;
+  /// The ball at what a camera's clock calls utime.
+  model::BallState expectedAt(int64_t utime, int camera) const;
   void takeFlight(const FreeFlight& followed);
   /// Where each camera is still to see the ball.
   void expectWay();
-  double distanceAt(int64_t utime) const;
+  double distanceAt(int64_t utime, int camera) const;
 
   TrackerOptions options_;
   std::vector<Eye> eyes_;
@@ -112,9 +115,10 @@ class ThrowTracker {
   FlightFinder finder_;
   State state_ = State::kWaiting;
 
-  Sightings moment_;       ///< of the time that is being seen
-  unsigned seen_ = 0;      ///< cameras whose image of it has come, one bit each
-  std::size_t known_ = 0;  ///< observations before it
+  Sightings moment_;          ///< of the time that is being seen, while nothing flies
+  int64_t moment_utime_ = 0;  ///< [us], its first image's
+  unsigned seen_ = 0;         ///< cameras whose image of it has come, one bit each
+  std::size_t known_ = 0;     ///< observations before it
   std::vector<Observation> observations_;
   std::optional<FreeFlight> followed_;
   std::optional<LandingEstimate> predicted_;
