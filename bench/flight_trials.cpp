@@ -1,6 +1,7 @@
 #include "bench/flight_trials.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -44,6 +45,9 @@ class Trial {
     const vision_tracker::FlightPrior& prior = tracker_.prior;
     const double drag = std::max(0.0, prior.drag + prior.drag_sigma * normal(random_));
     seen.made = makeFlight(experiment_, options_.seed * 100000 + index, drag);
+    clocks_.assign(cameras_.size(), 0);
+    for (std::size_t i = 1; i < clocks_.size() && prior.clock_sigma > 0; ++i)
+      clocks_[i] = prior.clock_sigma * normal(random_);
     const double end = options_.seen * seen.made.landing.time;
     for (int k = 0; k / rate_ < end; ++k) {
       const int64_t utime = kStart + std::llround(k * 1e6 / rate_);
@@ -54,6 +58,8 @@ class Trial {
       for (int camera = 0; camera < static_cast<int>(cameras_.size()); ++camera)
         look(utime, time, camera, ball, seen);
     }
+    std::stable_sort(seen.observations.begin(), seen.observations.end(),
+                     [](const auto& a, const auto& b) { return a.utime < b.utime; });
     return seen;
   }
 
@@ -85,7 +91,7 @@ class Trial {
     std::uniform_real_distribution<double> uniform;
     const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
     vision_tracker::Observation o;
-    o.utime = utime;
+    o.utime = utime + std::llround(1e6 * clocks_[static_cast<std::size_t>(camera)]);
     o.camera = camera;
     o.centre = vision_tracker::outlineCentre(eye, ball.p_WBall, tracker_.prior.ball_radius) +
                options_.sigma * Eigen::Vector2d(normal(random_), normal(random_));
@@ -108,6 +114,7 @@ class Trial {
   const vision_tracker::TrackerOptions& tracker_;
   const FlightTrialOptions& options_;
   std::mt19937 random_;
+  std::vector<double> clocks_;  ///< [s], ahead of the first camera's
 };
 
 /// A start as the tracker finds it from its first images: a few centimetres and per cent wrong.
@@ -145,10 +152,10 @@ FlightTrialResult flightTrials(const std::vector<model::Camera>& cameras,
     squares += error.squaredNorm();
     normalised += distance;
     inside += distance < kInside95 ? 1 : 0;
-    bound +=
-        landingBound(seen.made.release, seen.views, cameras, experiment.target,
-                     {gravity, seen.made.drag, tracker.prior.drag_sigma, tracker.prior.ball_radius})
-            .trace();
+    bound += landingBound(seen.made.release, seen.views, cameras, experiment.target,
+                          {gravity, seen.made.drag, tracker.prior.drag_sigma,
+                           tracker.prior.ball_radius, tracker.prior.clock_sigma})
+                 .trace();
   }
   const double count = std::max(1, landed);
   result.rms = std::sqrt(squares / count);

@@ -35,7 +35,8 @@ struct FlightTrialResult {
   double ratio() const { return rms / bound; }
 };
 
-/// Cameras, release places and drags of the default experiment; the drag is drawn from what the tracker assumes of it.
+/// Cameras, release places and drags of the default experiment; the drag, and the clocks if they are uncertain, are
+/// drawn from what the tracker assumes of them.
 /// @param options `tracker` as the process has them
 FlightTrialResult flightTrials(const std::vector<model::Camera>& cameras,
                                double rate,

@@ -43,8 +43,8 @@ struct FlightPrior {
   double clock_sigma = 0;
   /// [1/s], standard deviation per axis of the lift S of a spinning ball, a += S x v; 0: none. Estimated.
   double magnus_sigma = 0;
-  /// Relative, of an error of the measured radii that stays the same through a flight. Estimated; only a single camera's radii
-  /// are used.
+  /// Relative, standard deviation of an error that all measured radii of a flight share, and [1/s] of its change on the way.
+  /// Estimated; only a single camera's radii are used.
   double radius_sigma = 0.01;
 };
 

@@ -57,6 +57,7 @@ FlightProblem::FlightProblem(const std::vector<Observation>& observations,
   for (int camera = 1; camera < kMostCameras; ++camera)
     know(kClock + camera - 1, prior.clock_sigma, camera < static_cast<int>(cameras.size()));
   know(kSize, prior.radius_sigma, with_radius_);
+  know(kSizeRate, prior.radius_sigma, with_radius_);
 }
 
 void FlightProblem::start(const model::BallState& state) {
@@ -121,12 +122,15 @@ void FlightProblem::compareRadius(const Observation& o,
                                   Residual& r) const {
   const model::Camera& camera = cameras_[static_cast<std::size_t>(o.camera)];
   const double radius = sphereOutline(camera, p_W, prior_.ball_radius).meanRadius();
-  r.error[2] = o.radius - radius * (1 + x_[kSize]);
+  const double time = seconds(utime(), o.utime);
+  const double size = 1 + x_[kSize] + time * x_[kSizeRate];
+  r.error[2] = o.radius - radius * size;
   r.jacobian.row(2).head<kFlightParameters>() =
-      (1 + x_[kSize]) * radiusSlope(camera, p_W, prior_.ball_radius, radius) *
-      sensitivity.topRows<3>();
-  if (estimated_[kSize])
+      size * radiusSlope(camera, p_W, prior_.ball_radius, radius) * sensitivity.topRows<3>();
+  if (estimated_[kSize]) {
     r.jacobian(2, kSize) = radius;
+    r.jacobian(2, kSizeRate) = radius * time;
+  }
   r.weight(2, 2) = 1 / o.radius_variance;
 }
 

@@ -16,8 +16,10 @@ class FlightProblem {
   static constexpr int kMostCameras = 4;
   static constexpr int kClock = kFlightParameters;  ///< index of the second camera's clock
   static constexpr int kSize = kClock + kMostCameras - 1;
-  static constexpr int kUnknowns = kSize + 1;
-  /// The flight; the clocks of the other cameras against the first one's [s]; the relative error of the radii.
+  static constexpr int kSizeRate = kSize + 1;
+  static constexpr int kUnknowns = kSizeRate + 1;
+  /// The flight; the clocks of the other cameras against the first one's [s]; the relative error of the radii at the start, and
+  /// how it changes [1/s], for shading and background change along the way.
   using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
   using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 

@@ -72,6 +72,38 @@ TEST_F(FlightBound, IsThatOfAStraightLineInOneDirection) {
   EXPECT_NEAR(bound(seen)(0, 0), expected, 0.02 * expected);
 }
 
+TEST_F(FlightBound, GrowsWithTheClocksUncertaintyUpToALimit) {
+  const std::vector<View> seen = views(0.1, 1);
+  const double one = bound(seen).trace();
+  knowledge_.clock_sigma = 1e-8;
+  EXPECT_NEAR(bound(seen).trace(), one, 1e-4 * one);
+  double before = one;
+  for (const double sigma : {1e-5, 1e-4, 1e-3}) {
+    knowledge_.clock_sigma = sigma;
+    EXPECT_GT(bound(seen).trace(), before);
+    before = bound(seen).trace();
+  }
+  // The flight itself tells the clocks then.
+  knowledge_.clock_sigma = 1;
+  EXPECT_LT(bound(seen).trace(), 1.1 * before);
+}
+
+TEST_F(FlightBound, IsReachedWithUncertainClocks) {
+  const config::Experiment experiment = config::loadExperiment(experimentPath());
+  vision_tracker::TrackerOptions tracker = vision_tracker::readTracker(experimentPath()).tracker;
+  tracker.prior.clock_sigma = 2e-3;
+  tracker.prior.bias_sigma = 1e-4;
+  FlightTrialOptions options;
+  options.throws = 150;
+  options.sigma = 0.1;
+  const FlightTrialResult result = flightTrials(cameras_, 240, experiment, tracker, options);
+  EXPECT_EQ(result.failures, 0);
+  // Standard error of 150 throws: 6 %.
+  EXPECT_LT(result.ratio(), 1.2);
+  EXPECT_GT(result.ratio(), 0.8);
+  EXPECT_NEAR(result.nees, 2, 0.7);
+}
+
 TEST_F(FlightBound, FallsWithEveryView) {
   const double all = bound(views(0.1, 1)).trace(), some = bound(views(0.1, 0.6)).trace();
   EXPECT_GT(some, 2 * all);
