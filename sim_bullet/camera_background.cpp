@@ -9,7 +9,8 @@ namespace {
 constexpr double kWallY = 3.0;    // [m], behind the experiment as the cameras see it
 constexpr double kFloorZ = -1.2;  // [m]
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kShift = 4;  // OpenCV's fixed point: 1/16 px
+constexpr int kShift = 4;        // OpenCV's fixed point: 1/16 px
+constexpr double kTube = 0.008;  // [m], diameter of the ring's tube
 
 /// A value in [0, 1) for a whole-numbered place, the same everywhere (integer hash).
 double hashed(int64_t x, int64_t y) {
@@ -71,6 +72,67 @@ void drawLine(const model::Camera& camera,
            thickness, cv::LINE_AA, kShift);
 }
 
+/// Lines of one grey level, drawn eight times finer than the image.
+class Layer {
+ public:
+  Layer(const cv::Size& size, double blur) : size_(size), blur_(blur) {}
+
+  void add(const model::Camera& camera,
+           const Eigen::Vector3d& a,
+           const Eigen::Vector3d& b,
+           double width) {
+    const double depth = std::min(camera.toCamera(a).z(), camera.toCamera(b).z());
+    if (depth < 0.1)
+      return;
+    lines_.push_back({camera.project(a), camera.project(b), camera.fx * width / depth});
+    for (const Eigen::Vector2d& p : {lines_.back().start, lines_.back().end})
+      if (p.cwiseAbs().maxCoeff() < 1e5)
+        area_ |= cv::Rect(static_cast<int>(p.x()) - kBorder, static_cast<int>(p.y()) - kBorder,
+                          2 * kBorder, 2 * kBorder);
+  }
+
+  void paint(int grey, cv::Mat& image) const {
+    const cv::Rect area = area_ & cv::Rect({0, 0}, size_);
+    if (area.empty())
+      return;
+    cv::Mat fine = cv::Mat::zeros(area.size() * kFiner, CV_8U);
+    for (const Line& line : lines_)
+      cv::line(fine, place(line.start, area), place(line.end, area), cv::Scalar(255),
+               std::max(1, static_cast<int>(std::lround(line.width * kFiner))), cv::LINE_AA,
+               kShift);
+    cv::Mat share;
+    cv::resize(fine, share, area.size(), 0, 0, cv::INTER_AREA);
+    share.convertTo(share, CV_32F, 1.0 / 255);
+    cv::GaussianBlur(share, share, {}, blur_, blur_);
+    for (int v = 0; v < area.height; ++v) {
+      for (int u = 0; u < area.width; ++u) {
+        uchar& pixel = image.at<uchar>(area.y + v, area.x + u);
+        pixel = cv::saturate_cast<uchar>(static_cast<float>(pixel) +
+                                         share.at<float>(v, u) * static_cast<float>(grey - pixel));
+      }
+    }
+  }
+
+ private:
+  static constexpr int kFiner = 8;
+  static constexpr int kBorder = 8;  // [px], for width and blur
+  struct Line {
+    Eigen::Vector2d start, end;  ///< [px]
+    double width = 0;            ///< [px]
+  };
+
+  /// In the fine image's fixed point; its pixels' centres lie at whole numbers too.
+  static cv::Point place(const Eigen::Vector2d& p, const cv::Rect& area) {
+    return fixedPoint((p - Eigen::Vector2d(area.x, area.y)) * kFiner +
+                      Eigen::Vector2d::Constant((kFiner - 1) / 2.0));
+  }
+
+  cv::Size size_;
+  double blur_;
+  std::vector<Line> lines_;
+  cv::Rect area_;
+};
+
 }  // namespace
 
 cv::Mat rayMap(const model::Camera& camera) {
@@ -106,7 +168,6 @@ cv::Mat drawRoom(const model::Camera& camera, const cv::Mat& rays) {
 
 std::vector<RingPiece> ringPieces(const model::Camera& camera, const model::Target& target) {
   constexpr int kPieces = 32;
-  constexpr double kTube = 0.008;  // [m]
   std::vector<RingPiece> pieces;
   for (int i = 0; i < kPieces; ++i) {
     const Eigen::Vector3d a =
@@ -126,25 +187,33 @@ void drawRingPiece(const RingPiece& piece, const cv::Point& origin, cv::Mat& ima
            std::max(1, static_cast<int>(std::lround(piece.width))), cv::LINE_AA, kShift);
 }
 
-void drawNet(const model::Camera& camera, const model::Target& target, cv::Mat& image) {
+void drawNet(const model::Camera& camera,
+             const model::Target& target,
+             double blur,
+             cv::Mat& image) {
   constexpr int kStrings = 16;
+  constexpr int kPieces = 128;
   constexpr double kBag = 0.40;  // [m], how far the bag reaches behind the ring
+  Layer strings(image.size(), blur), ring(image.size(), blur);
   for (int i = 0; i < kStrings; ++i) {
     const double angle = 2 * kPi * i / kStrings, next = 2 * kPi * (i + 1) / kStrings;
-    for (int ring = 0; ring < 3; ++ring) {
-      const double near = ring / 3.0, far = (ring + 1) / 3.0;
+    for (int row = 0; row < 3; ++row) {
+      const double near = row / 3.0, far = (row + 1) / 3.0;
       const Eigen::Vector3d a =
           ringPoint(target, angle, target.radius * (1 - 0.3 * near), kBag * near);
       const Eigen::Vector3d b =
           ringPoint(target, angle, target.radius * (1 - 0.3 * far), kBag * far);
       const Eigen::Vector3d c =
           ringPoint(target, next, target.radius * (1 - 0.3 * far), kBag * far);
-      drawLine(camera, a, b, 85, 0.003, image);
-      drawLine(camera, b, c, 85, 0.003, image);
+      strings.add(camera, a, b, 0.003);
+      strings.add(camera, b, c, 0.003);
     }
   }
-  for (const RingPiece& piece : ringPieces(camera, target))
-    drawRingPiece(piece, {0, 0}, image);
+  for (int i = 0; i < kPieces; ++i)
+    ring.add(camera, ringPoint(target, 2 * kPi * i / kPieces, target.radius + kTube / 2, 0),
+             ringPoint(target, 2 * kPi * (i + 1) / kPieces, target.radius + kTube / 2, 0), kTube);
+  strings.paint(85, image);
+  ring.paint(150, image);
 }
 
 }  // namespace fastball::sim_bullet

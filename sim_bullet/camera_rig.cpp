@@ -86,7 +86,7 @@ void CameraRig::begin(int64_t scene_id,
   for (std::size_t i = 0; i < options_.cameras.size(); ++i) {
     const RigCamera& rig = options_.cameras[i];
     cv::Mat background = rooms_[i].clone();
-    drawNet(rig.camera, target, background);
+    drawNet(rig.camera, target, options_.blur, background);
     views_.push_back(
         std::make_shared<View>(View{rig, rays_[i], background, ringPieces(rig.camera, target)}));
   }
