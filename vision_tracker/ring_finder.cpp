@@ -1,0 +1,525 @@
+#include "vision_tracker/ring_finder.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "vision_tracker/background.h"
+
+namespace fastball::vision_tracker {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kSegments = 96;  // of the ring's image, for distances
+constexpr int kProbes = 48;    // along the ring, for the search
+constexpr int kSectors = 8;    // within one the ring is brighter than what is beside it, or darker
+constexpr double kSpacing = 2.0;        // [px], between pieces
+constexpr double kHalfPiece = 1.25;     // [px], along the ring
+constexpr double kFarthestShift = 2.0;  // [px], of a piece
+constexpr int kFarthestSearch = 40;     // [px]
+constexpr double kLeastContrast = 3.0;  // [grey levels]
+constexpr double kLeastSeen = 0.4;      // share of the pieces
+constexpr double kGreyDoubt =
+    0.3;  // [grey levels], of the averaged image at least: rounding and JPEG
+constexpr double kLargestDisagreement = 4.0;  // [px], between a camera's ring and that of all
+
+std::vector<Eigen::Vector2d> imagesOf(const model::Camera& camera, const Ring& ring, int count) {
+  std::vector<Eigen::Vector2d> images;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d p_W = ring.point(2 * kPi * i / count);
+    if (camera.toCamera(p_W).z() < 0.1)
+      return {};
+    images.push_back(camera.project(p_W));
+  }
+  return images;
+}
+
+/// Unit vector across the ring's image at its i-th point.
+Eigen::Vector2d acrossAt(const std::vector<Eigen::Vector2d>& images, std::size_t i) {
+  const std::size_t n = images.size();
+  const Eigen::Vector2d along = images[(i + 1) % n] - images[(i + n - 1) % n];
+  const double length = along.norm();
+  return length > 1e-9 ? Eigen::Vector2d(along.y() / length, -along.x() / length)
+                       : Eigen::Vector2d(1, 0);
+}
+
+/// Points of the ring's image about kSpacing apart and unit vectors across it; among them those two at the ends of its long axis: where the ring is seen from
+/// its edge, only these say where it is along the line that it looks like.
+std::vector<std::pair<std::size_t, Eigen::Vector2d>> placesAlong(
+    const std::vector<Eigen::Vector2d>& images) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : images)
+    mean += p / static_cast<double>(images.size());
+  const auto farthest =
+      std::max_element(images.begin(), images.end(), [&](const auto& a, const auto& b) {
+        return (a - mean).squaredNorm() < (b - mean).squaredNorm();
+      });
+  const auto first = static_cast<std::size_t>(farthest - images.begin());
+  std::vector<std::pair<std::size_t, Eigen::Vector2d>> places;
+  const std::size_t half = images.size() / 2;
+  for (const std::size_t start : {first, first + half}) {
+    double since = kSpacing;
+    for (std::size_t k = 0; k < half; ++k) {
+      const std::size_t i = (start + k) % images.size();
+      if (since >= kSpacing) {
+        places.emplace_back(i, k == 0 ? (images[i] - mean).normalized() : acrossAt(images, i));
+        since = 0;
+      }
+      since += (images[(i + 1) % images.size()] - images[i]).norm();
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+/// What the ring's image would be: for each pixel of the area the share that the tube covers, how it grows to the right and
+/// down [1/px], and the nearest place of the ring.
+struct RingFinder::Template {
+  cv::Mat1f share, right, down;
+  cv::Mat1f angle;     ///< [rad] of the ring; anything far from it
+  cv::Mat1f distance;  ///< [px] to the middle of the tube; huge far from it
+};
+
+/// Where to look.
+struct RingFinder::Piece {
+  Eigen::Vector2d middle, across;
+  std::vector<cv::Point> pixels;  ///< of the area
+  cv::Mat1i* counts = nullptr;    ///< how many pieces look at a pixel
+};
+
+RingFinder::RingFinder(const model::Camera& camera,
+                       const cv::Mat& still,
+                       const Ring& nominal,
+                       double tube,
+                       double blur,
+                       double reach)
+    : camera_(camera), blur_(blur) {
+  const std::vector<Eigen::Vector2d> images = imagesOf(camera, nominal, kSegments);
+  if (images.empty())
+    return;
+  width_ = camera.fx * tube / camera.toCamera(nominal.p_W).z();
+  Eigen::Vector2d low = images.front(), high = images.front();
+  for (const Eigen::Vector2d& p : images) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if (!(low.minCoeff() > -1e5 && high.maxCoeff() < 1e5))
+    return;
+  const double border = width_ / 2 + 4;
+  const cv::Rect whole(0, 0, still.cols, still.rows);
+  const auto around = [&](double margin) {
+    return cv::Rect(
+        cv::Point(static_cast<int>(low.x() - margin), static_cast<int>(low.y() - margin)),
+        cv::Point(static_cast<int>(high.x() + margin) + 2,
+                  static_cast<int>(high.y() + margin) + 2));
+  };
+  if ((around(border) & whole) != around(border))
+    return;
+  area_ = around(border + reach) & whole;
+  still(area_).convertTo(grey_, CV_32F, 1.0 / Background::kScale);
+  cv::Mat smooth;
+  const double scale = std::max(1.0, width_ / 2);
+  cv::GaussianBlur(grey_, smooth, {}, scale, scale, cv::BORDER_REPLICATE);
+  cv::Sobel(smooth, across_, CV_32F, 2, 0, 3, 0.25);
+  cv::Sobel(smooth, mixed_, CV_32F, 1, 1, 3, 0.25);
+  cv::Sobel(smooth, down_, CV_32F, 0, 2, 3, 0.25);
+}
+
+cv::Mat1f RingFinder::search(const Ring& ring, int reach) const {
+  struct Probe {
+    int u, v, sector;
+    float uu, uv, vv;
+  };
+  const std::vector<Eigen::Vector2d> images = imagesOf(camera_, ring, kProbes);
+  std::vector<Probe> probes;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Eigen::Vector2d n = acrossAt(images, i);
+    probes.push_back({static_cast<int>(std::lround(images[i].x())) - area_.x,
+                      static_cast<int>(std::lround(images[i].y())) - area_.y,
+                      static_cast<int>(i) * kSectors / kProbes, static_cast<float>(n.x() * n.x()),
+                      static_cast<float>(2 * n.x() * n.y()), static_cast<float>(n.y() * n.y())});
+  }
+  cv::Mat1f scores(2 * reach + 1, 2 * reach + 1);
+  for (int dv = -reach; dv <= reach; ++dv) {
+    for (int du = -reach; du <= reach; ++du) {
+      float sums[kSectors] = {};
+      for (const Probe& p : probes) {
+        const int u = std::clamp(p.u + du, 0, area_.width - 1);
+        const int v = std::clamp(p.v + dv, 0, area_.height - 1);
+        sums[p.sector] += p.uu * across_.ptr<float>(v)[u] + p.uv * mixed_.ptr<float>(v)[u] +
+                          p.vv * down_.ptr<float>(v)[u];
+      }
+      float score = 0;
+      for (const float sum : sums)
+        score += std::abs(sum);
+      scores(dv + reach, du + reach) = score / kProbes;
+    }
+  }
+  return scores;
+}
+
+RingFinder::Template RingFinder::templateOf(const std::vector<Eigen::Vector2d>& images) const {
+  const double band = width_ / 2 + 4 * blur_ + kFarthestShift + 2;
+  Template made{cv::Mat1f(area_.size(), 0.0F), cv::Mat1f(area_.size(), 0.0F),
+                cv::Mat1f(area_.size(), 0.0F), cv::Mat1f(area_.size(), 0.0F),
+                cv::Mat1f(area_.size(), 1e6F)};
+  const Eigen::Vector2d origin(area_.x, area_.y);
+  Eigen::Vector2d low = images.front() - origin, high = low;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Eigen::Vector2d a = images[i] - origin;
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    markNearest(a, images[(i + 1) % images.size()] - images[i], band, i, made);
+  }
+  const cv::Rect part =
+      cv::Rect(
+          cv::Point(static_cast<int>(low.x() - band) - 1, static_cast<int>(low.y() - band) - 1),
+          cv::Point(static_cast<int>(high.x() + band) + 2, static_cast<int>(high.y() + band) + 2)) &
+      cv::Rect({0, 0}, area_.size());
+  if (part.empty())
+    return made;
+  constexpr int kFiner = 4;
+  constexpr int kShift = 4;  // OpenCV's fixed point
+  std::vector<cv::Point> outline;
+  for (const Eigen::Vector2d& p : images) {
+    // A fine pixel's centre lies at a whole number too.
+    const Eigen::Vector2d fine = (p - origin - Eigen::Vector2d(part.x, part.y)) * kFiner +
+                                 Eigen::Vector2d::Constant((kFiner - 1) / 2.0);
+    outline.emplace_back(static_cast<int>(std::lround(fine.x() * (1 << kShift))),
+                         static_cast<int>(std::lround(fine.y() * (1 << kShift))));
+  }
+  cv::Mat drawn = cv::Mat::zeros(part.size() * kFiner, CV_8U);
+  cv::polylines(drawn, outline, true, cv::Scalar(255),
+                std::max(1, static_cast<int>(std::lround(width_ * kFiner))), cv::LINE_AA, kShift);
+  cv::Mat fine, slope, result;
+  drawn.convertTo(fine, CV_32F, 1.0 / 255);
+  cv::GaussianBlur(fine, fine, {}, blur_ * kFiner, blur_ * kFiner);
+  cv::resize(fine, result, part.size(), 0, 0, cv::INTER_AREA);
+  result.copyTo(made.share(part));
+  cv::Sobel(fine, slope, CV_32F, 1, 0, 1, 0.5 * kFiner);
+  cv::resize(slope, result, part.size(), 0, 0, cv::INTER_AREA);
+  result.copyTo(made.right(part));
+  cv::Sobel(fine, slope, CV_32F, 0, 1, 1, 0.5 * kFiner);
+  cv::resize(slope, result, part.size(), 0, 0, cv::INTER_AREA);
+  result.copyTo(made.down(part));
+  return made;
+}
+
+/// For the pixels about one segment of the ring's image, whether it is the nearest.
+void RingFinder::markNearest(const Eigen::Vector2d& a,
+                             const Eigen::Vector2d& along,
+                             double band,
+                             std::size_t segment,
+                             Template& made) const {
+  const double length = std::max(along.squaredNorm(), 1e-12);
+  const Eigen::Vector2d low = a.cwiseMin(a + along), high = a.cwiseMax(a + along);
+  const int v_end = std::min(area_.height - 1, static_cast<int>(high.y() + band));
+  const int u_end = std::min(area_.width - 1, static_cast<int>(high.x() + band));
+  for (int v = std::max(0, static_cast<int>(low.y() - band)); v <= v_end; ++v) {
+    for (int u = std::max(0, static_cast<int>(low.x() - band)); u <= u_end; ++u) {
+      const Eigen::Vector2d from = Eigen::Vector2d(u, v) - a;
+      const double share = std::clamp(from.dot(along) / length, 0.0, 1.0);
+      const double distance = (from - share * along).norm();
+      if (distance >= static_cast<double>(made.distance(v, u)))
+        continue;
+      made.distance(v, u) = static_cast<float>(distance);
+      made.angle(v, u) =
+          static_cast<float>(2 * kPi * (static_cast<double>(segment) + share) / kSegments);
+    }
+  }
+}
+
+// The grey values of a piece are those of the wall (a level and a slope across), of the tube, and of the tube moved a little
+// across: linear in all four.
+std::optional<RingPoint> RingFinder::look(const Piece& piece, const Template& made) const {
+  const std::size_t count = piece.pixels.size();
+  if (count < 12)
+    return std::nullopt;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  double squares = 0, multiplicity = 0, weight = 0, most = 0;
+  std::map<int, std::pair<double, double>> angles;  // of each segment: weight, weighted angle
+  for (const cv::Point& pixel : piece.pixels) {
+    const double moved = -(static_cast<double>(made.right(pixel)) * piece.across.x() +
+                           static_cast<double>(made.down(pixel)) * piece.across.y());
+    const double s = piece.across.dot(Eigen::Vector2d(pixel.x, pixel.y) - piece.middle);
+    const Eigen::Vector4d row(1, s, static_cast<double>(made.share(pixel)), moved);
+    const auto grey = static_cast<double>(grey_.at<float>(pixel));
+    normal += row * row.transpose();
+    right += grey * row;
+    squares += grey * grey;
+    const double w = moved * moved;
+    most = std::max(most, row[2]);
+    weight += w;
+    multiplicity += w * (*piece.counts)(pixel);
+    const auto angle = static_cast<double>(made.angle(pixel));
+    auto& [sum, moment] = angles[static_cast<int>(angle * kSegments / (2 * kPi))];
+    sum += w;
+    moment += w * angle;
+  }
+  const Eigen::Matrix4d inverse = normal.inverse();
+  const Eigen::Vector4d fit = inverse * right;
+  if (!fit.allFinite() || !(weight > 1e-9))
+    return std::nullopt;
+  const double rest = std::max(0.0, squares - fit.dot(right)) / (static_cast<double>(count) - 4) +
+                      kGreyDoubt * kGreyDoubt;
+  const double contrast = std::abs(fit[2]);
+  RingPoint point;
+  const double shift = fit[3] / fit[2];
+  if (contrast * most < kLeastContrast || contrast < 5 * std::sqrt(rest * inverse(2, 2)) ||
+      !(std::abs(shift) < kFarthestShift))
+    return std::nullopt;
+  point.across = piece.across;
+  point.place = shift;
+  point.variance = rest * inverse(3, 3) / (contrast * contrast) * multiplicity / weight;
+  for (const auto& [segment, sums] : angles)
+    if (sums.first > 1e-4 * weight)
+      point.angles.emplace_back(sums.second / sums.first, sums.first / weight);
+  return point;
+}
+
+std::vector<RingPoint> RingFinder::points(const Ring& ring,
+                                          const Eigen::Vector2d& shift,
+                                          int camera_index,
+                                          int* looked) const {
+  *looked = 0;
+  std::vector<Eigen::Vector2d> images = imagesOf(camera_, ring, kSegments);
+  if (images.empty())
+    return {};
+  for (Eigen::Vector2d& p : images)
+    p += shift;
+  const Template made = templateOf(images);
+  const Eigen::Vector2d origin(area_.x, area_.y);
+  const double reach = width_ / 2 + 2 * blur_ + kFarthestShift;
+  cv::Mat1i counts(area_.size(), 0);
+  std::vector<Piece> pieces;
+  for (const auto& [i, across_piece] : placesAlong(images)) {
+    Piece piece{images[i] - origin, across_piece, {}, &counts};
+    const double around = reach + kHalfPiece;
+    for (int v = static_cast<int>(piece.middle.y() - around); v <= piece.middle.y() + around; ++v) {
+      for (int u = static_cast<int>(piece.middle.x() - around); u <= piece.middle.x() + around;
+           ++u) {
+        const Eigen::Vector2d from = Eigen::Vector2d(u, v) - piece.middle;
+        const double across = piece.across.dot(from);
+        const double along = piece.across.x() * from.y() - piece.across.y() * from.x();
+        if (u < 0 || v < 0 || u >= area_.width || v >= area_.height || std::abs(across) > reach ||
+            std::abs(along) > kHalfPiece)
+          continue;
+        piece.pixels.emplace_back(u, v);
+        ++counts(v, u);
+      }
+    }
+    pieces.push_back(std::move(piece));
+  }
+  *looked = static_cast<int>(pieces.size());
+  std::vector<RingPoint> points;
+  for (const Piece& piece : pieces) {
+    std::optional<RingPoint> point = look(piece, made);
+    if (!point)
+      continue;
+    point->camera = camera_index;
+    // The mean image of the angles by the camera itself, as the fit of the pose computes it.
+    point->place += point->across.dot(shift);
+    for (const auto& [angle, share] : point->angles)
+      point->place += share * point->across.dot(camera_.project(ring.point(angle)));
+    points.push_back(*point);
+  }
+  return points;
+}
+
+namespace {
+
+/// Where a small movement of the ring's centre moves its image.
+Eigen::Matrix<double, 2, 3> movementOf(const model::Camera& camera, const Ring& ring) {
+  Eigen::Matrix<double, 2, 3> jacobian;
+  camera.project(ring.p_W, &jacobian);
+  return jacobian;
+}
+
+/// From a place [px] of a table of scores, whose middle is 0, to the best place around.
+Eigen::Vector2d bestNear(const cv::Mat1f& scores, const Eigen::Vector2d& place) {
+  constexpr int kAround = 2;
+  const int middle = scores.rows / 2;
+  const cv::Point centre(middle + static_cast<int>(std::lround(place.x())),
+                         middle + static_cast<int>(std::lround(place.y())));
+  const cv::Rect area =
+      cv::Rect(centre.x - kAround, centre.y - kAround, 2 * kAround + 1, 2 * kAround + 1) &
+      cv::Rect({0, 0}, scores.size());
+  if (area.empty())
+    return Eigen::Vector2d::Zero();
+  cv::Point best;
+  cv::minMaxLoc(scores(area), nullptr, nullptr, nullptr, &best);
+  return Eigen::Vector2d(area.x + best.x - middle, area.y + best.y - middle) - place;
+}
+
+/// The ring's centre moved to where all cameras together see it best, by steps of about a pixel; its score. A camera that sees
+/// the ring from its edge sees a line, and cannot say alone where along it the ring is.
+double searchTogether(const std::vector<RingFinder>& finders,
+                      const std::vector<model::Camera>& cameras,
+                      double reach,
+                      Ring& ring,
+                      std::vector<Eigen::Vector2d>& shifts) {
+  struct View {
+    std::size_t camera;
+    cv::Mat1f scores, around;
+    Eigen::Matrix<double, 2, 3> movement;
+  };
+  std::vector<View> views;
+  double step = reach;
+  for (std::size_t c = 0; c < finders.size(); ++c) {
+    if (!finders[c].inView())
+      continue;
+    const Eigen::Matrix<double, 2, 3> movement = movementOf(cameras[c], ring);
+    const int pixels = static_cast<int>(std::ceil(reach * movement.norm() / std::sqrt(2.0))) + 1;
+    View view{c, finders[c].search(ring, std::min(pixels, kFarthestSearch)), {}, movement};
+    // A calibration that is a little wrong leaves a pixel between the cameras.
+    cv::dilate(view.scores, view.around, cv::Mat::ones(3, 3, CV_8U));
+    step = std::min(step, 1 / view.movement.norm() * std::sqrt(2.0));
+    views.push_back(view);
+  }
+  const int steps = static_cast<int>(reach / step);
+  Eigen::Vector3d best_move = Eigen::Vector3d::Zero();
+  double best = -1;
+  for (int x = -steps; x <= steps; ++x) {
+    for (int y = -steps; y <= steps; ++y) {
+      for (int z = -steps; z <= steps; ++z) {
+        const Eigen::Vector3d move = step * Eigen::Vector3d(x, y, z);
+        double score = 0;
+        for (const View& view : views) {
+          const Eigen::Vector2d at = view.movement * move;
+          const int middle = view.scores.rows / 2;
+          const int u = middle + static_cast<int>(std::lround(at.x()));
+          const int v = middle + static_cast<int>(std::lround(at.y()));
+          if (u >= 0 && v >= 0 && u < view.around.cols && v < view.around.rows)
+            score += static_cast<double>(view.around(v, u));
+        }
+        // Of equals the nearest: they come from the dilation.
+        score -= 1e-6 * move.norm();
+        if (score > best) {
+          best = score;
+          best_move = move;
+        }
+      }
+    }
+  }
+  for (const View& view : views)
+    shifts[view.camera] = bestNear(view.scores, view.movement * best_move);
+  ring.p_W += best_move;
+  return best;
+}
+
+/// The same for rings turned a little each way, of which it takes the best.
+void searchTurned(const std::vector<RingFinder>& finders,
+                  const std::vector<model::Camera>& cameras,
+                  double reach,
+                  double turn,
+                  Ring& ring,
+                  std::vector<Eigen::Vector2d>& shifts) {
+  const Ring start = ring;
+  double best = -1;
+  for (const double about_right : {0.0, -turn, turn}) {
+    for (const double about_up : {0.0, -turn, turn}) {
+      Eigen::Matrix<double, 6, 1> change = Eigen::Matrix<double, 6, 1>::Zero();
+      change[3] = about_right;
+      change[4] = about_up;
+      Ring turned = start.moved(change);
+      std::vector<Eigen::Vector2d> found(cameras.size(), Eigen::Vector2d::Zero());
+      const double score = searchTogether(finders, cameras, reach, turned, found);
+      if (score > best) {
+        best = score;
+        shifts = found;
+        ring = turned;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+RingMeasurement measureRing(const std::vector<const cv::Mat*>& still,
+                            const std::vector<model::Camera>& cameras,
+                            const Ring& nominal,
+                            const RingPrior& prior,
+                            double blur) {
+  constexpr int kRounds = 8;
+  constexpr double kSettled = 1e-5;  // [m]
+  constexpr double kNear = 0.02;     // [m], what the coarse search leaves
+  RingMeasurement result;
+  std::vector<RingFinder> finders;
+  bool any = false;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const double depth = std::max(0.1, cameras[c].toCamera(nominal.p_W).z());
+    const double reach =
+        std::min<double>(kFarthestSearch, 3 * prior.position * cameras[c].fx / depth + 2);
+    finders.emplace_back(cameras[c], *still[c], nominal, prior.tube, blur, reach);
+    any = any || finders.back().inView();
+  }
+  if (!any) {
+    result.why_not = "no camera has the whole ring in its image";
+    return result;
+  }
+  std::vector<Eigen::Vector2d> shifts(cameras.size(), Eigen::Vector2d::Zero());
+  Ring ring = nominal;
+  searchTurned(finders, cameras, 3 * prior.position, 2 * prior.tilt, ring, shifts);
+  for (const double part : {1.0, 0.5})
+    searchTurned(finders, cameras, part * kNear, part * prior.tilt, ring, shifts);
+  std::optional<RingEstimate> estimate;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<RingPoint> points;
+    int looked_at = 0, seen = 0;
+    for (std::size_t c = 0; c < finders.size(); ++c) {
+      if (!finders[c].inView())
+        continue;
+      int looked = 0;
+      const std::vector<RingPoint> found =
+          finders[c].points(ring, shifts[c], static_cast<int>(c), &looked);
+      looked_at += looked;
+      seen += static_cast<int>(found.size());
+      if (static_cast<double>(found.size()) >= kLeastSeen * looked)
+        points.insert(points.end(), found.begin(), found.end());
+    }
+    if (points.empty()) {
+      result.why_not = fmt::format("the ring is seen at only {} of {} places", seen, looked_at);
+      return result;
+    }
+    estimate = fitRing(points, cameras, nominal, prior, ring);
+    if (!estimate) {
+      result.why_not = fmt::format("{} places do not lie on one ring of {:.3f} m radius",
+                                   points.size(), nominal.radius);
+      return result;
+    }
+    const double moved = (estimate->ring.p_W - ring.p_W).norm();
+    // Half-way after the first rounds: what is seen at the ends of a ring seen from its edge depends on where one looks.
+    const double part = round < 2 ? 1.0 : 0.5;
+    ring = ring.moved(part * between(ring, estimate->ring));
+    for (std::size_t c = 0; c < shifts.size(); ++c)
+      shifts[c] += part * (estimate->shifts[c] - shifts[c]);
+    if (round >= 2 && moved < kSettled)
+      break;
+  }
+  ring = estimate->ring;
+  for (const Eigen::Vector2d& shift : estimate->shifts) {
+    if (shift.norm() > kLargestDisagreement) {
+      result.why_not =
+          fmt::format("the cameras disagree by {:.1f} px about where the ring is", shift.norm());
+      return result;
+    }
+  }
+  if ((ring.p_W - nominal.p_W).norm() > 4 * prior.position) {
+    result.why_not =
+        fmt::format("the ring seen is {:.3f} m from the one configured, at most {} m are allowed",
+                    (ring.p_W - nominal.p_W).norm(), 4 * prior.position);
+    return result;
+  }
+  result.estimate = estimate;
+  return result;
+}
+
+}  // namespace fastball::vision_tracker
