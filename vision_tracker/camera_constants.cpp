@@ -25,6 +25,26 @@ Eigen::Matrix<double, 2, kCameraConstants> byConstants(
   return derivative;
 }
 
+ConstantsEvidence evidenceOf(
+    const std::vector<Eigen::Matrix<double, kCameraConstants, kCameraConstants>>& squares,
+    const std::vector<CameraConstants>& gradients,
+    const std::vector<Eigen::MatrixXd>& sums,
+    const Eigen::MatrixXd& cov) {
+  const auto cameras = static_cast<Eigen::Index>(squares.size());
+  const Eigen::Index n = kCameraConstants;
+  ConstantsEvidence evidence{Eigen::MatrixXd::Zero(n * cameras, n * cameras),
+                             Eigen::VectorXd::Zero(n * cameras)};
+  for (Eigen::Index a = 0; a < cameras; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    evidence.information.block(n * a, n * a, n, n) = squares[i];
+    evidence.gradient.segment(n * a, n) = gradients[i];
+    for (Eigen::Index b = 0; b < cameras; ++b)
+      evidence.information.block(n * a, n * b, n, n) -=
+          sums[i].transpose() * cov * sums[static_cast<std::size_t>(b)];
+  }
+  return evidence;
+}
+
 model::Camera displaced(const model::Camera& camera, const CameraConstants& constants) {
   model::Camera moved = camera;
   const Eigen::Vector3d turn = constants.segment<3>(2);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "model/camera.h"
 
@@ -29,6 +30,23 @@ Eigen::Matrix<double, 2, kCameraConstants> byConstants(
     const Eigen::Vector3d& p_W,
     const Eigen::Vector2d& centre,
     const Eigen::Matrix<double, 2, 3>& projection);
+
+/// Variance of a constant that is known: far below what any image shows.
+constexpr double kLeastVariance = 1e-16;
+
+/// What a fit's residuals say of the constants c of all cameras, one camera's after another's, when the fit itself follows them
+/// (x moves by gain c): the log likelihood is -c' information c / 2 + gradient' c.
+struct ConstantsEvidence {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+/// Gathers it. @param sums sum J^T W G of each camera @param cov inverse of the fit's information
+ConstantsEvidence evidenceOf(
+    const std::vector<Eigen::Matrix<double, kCameraConstants, kCameraConstants>>& squares,
+    const std::vector<CameraConstants>& gradients,
+    const std::vector<Eigen::MatrixXd>& sums,
+    const Eigen::MatrixXd& cov);
 
 /// The camera that is meant if `camera` is assumed; the bias has no part in it.
 model::Camera displaced(const model::Camera& camera, const CameraConstants& constants);

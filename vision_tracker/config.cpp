@@ -63,6 +63,13 @@ TrackerConfig readTracker(const std::string& path) {
   calibration.finish();
   config.tracker.longest_gap = section.number("longest_gap", {0.01, 1});
   config.longest_wait = section.number("longest_wait", {1, 1e5});
+  config.tracker.measure_target = section.choice("target", {"known", "measured"}) == "measured";
+  config::Section ring = section.section("ring");
+  config.tracker.ring.tube = ring.number("tube", {1e-3, 1});
+  config.tracker.ring.position = ring.number("position", {1e-4, 1});
+  config.tracker.ring.tilt = ring.number("tilt", {1e-4, 0.5});
+  config.tracker.ring.bias = ring.number("bias", {1e-4, 10});
+  ring.finish();
   config.silence = section.number("silence", {0.1, 60});
   section.finish();
   return config;

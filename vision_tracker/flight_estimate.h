@@ -62,10 +62,13 @@ struct FlightEstimate {
   std::vector<FlightGain> gains;
   /// [s], of each camera: how far its clock is ahead of the first one's, and the standard deviation of that.
   std::vector<double> clock, clock_sigma;
+  ConstantsEvidence evidence;  ///< what the residuals say of the cameras' constants
   double residual_px = 0;  ///< [px], rms per axis of the observations used
   /// Standard deviation of the residuals over that which the observations' covariances say; it is in `cov`. A few residuals
   /// hardly move it from 1.
   double scale = 1;
+  /// The same without what errors of the cameras' constants, as far as they are to be expected, explain of the residuals.
+  double quiet_scale = 1;
   int used = 0;  ///< observations that were not cut away
 
   /// The ball at a time [us] of the first camera's clock.

@@ -208,7 +208,9 @@ FlightEstimate FlightProblem::estimate(const Information& information) const {
   e.noise_cov = inverse.topLeftCorner<kFlightParameters, kFlightParameters>();
   e.cov = e.noise_cov;
   const CameraConstants variances = constantVariances(prior_.bias_sigma, prior_.calibration);
-  for (const FlightGain& gain : constantSums(inverse / (e.scale * e.scale))) {
+  for (const Eigen::MatrixXd& sum : constantSums()) {
+    const FlightGain gain =
+        inverse.topRows<kFlightParameters>() * sum / (e.scale * e.scale);
     e.cov += gain * variances.asDiagonal() * gain.transpose();
     e.gains.push_back(gain);
   }
@@ -217,23 +219,48 @@ FlightEstimate FlightProblem::estimate(const Information& information) const {
     e.clock.push_back(clockOf(camera));
     e.clock_sigma.push_back(camera == 0 ? 0 : std::sqrt(inverse(i, i)));
   }
+  e.evidence = evidence(inverse, e.scale);
+  const double square = e.scale * e.scale;
+  const auto constants = static_cast<Eigen::Index>(cameras_.size());
+  Eigen::MatrixXd likely = square * e.evidence.information;
+  likely.diagonal() += variances.cwiseMax(kLeastVariance).cwiseInverse().replicate(constants, 1);
+  const Eigen::VectorXd gradient = square * e.evidence.gradient;
+  const double explained = gradient.dot(likely.ldlt().solve(gradient));
+  e.quiet_scale = std::sqrt((kTrust + std::max(0.0, normalised - explained)) / (kTrust + freedom));
   return e;
 }
 
-/// inverse sum J^T W G of each camera.
-std::vector<FlightGain> FlightProblem::constantSums(const Information& inverse) const {
-  using Sum = Eigen::Matrix<double, kUnknowns, kCameraConstants>;
-  std::vector<Sum> sums(cameras_.size(), Sum::Zero());
+ConstantsEvidence FlightProblem::evidence(const Information& inverse, double scale) const {
+  using Square = Eigen::Matrix<double, kCameraConstants, kCameraConstants>;
+  const double share = 1 / (scale * scale);
+  std::vector<Square> squares(cameras_.size(), Square::Zero());
+  std::vector<CameraConstants> gradients(cameras_.size(), CameraConstants::Zero());
+  for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    const Residual& r = residuals_[i];
+    if (weight(r, true) == 0)
+      continue;
+    const auto c = static_cast<std::size_t>(observations_[first_ + i].camera);
+    const Eigen::Matrix2d weight_px = share * r.weight.topLeftCorner<2, 2>();
+    squares[c] += r.constants.transpose() * weight_px * r.constants;
+    gradients[c] += r.constants.transpose() * weight_px * r.error.head<2>();
+  }
+  std::vector<Eigen::MatrixXd> sums = constantSums();
+  for (Eigen::MatrixXd& sum : sums)
+    sum *= share;
+  return evidenceOf(squares, gradients, sums, inverse);
+}
+
+/// sum J^T W G of each camera.
+std::vector<Eigen::MatrixXd> FlightProblem::constantSums() const {
+  std::vector<Eigen::MatrixXd> sums(cameras_.size(),
+                                    Eigen::MatrixXd::Zero(kUnknowns, kCameraConstants));
   for (std::size_t i = 0; i < residuals_.size(); ++i) {
     const Residual& r = residuals_[i];
     if (weight(r, true) != 0)
       sums[static_cast<std::size_t>(observations_[first_ + i].camera)] +=
           r.jacobian.topRows<2>().transpose() * r.weight.topLeftCorner<2, 2>() * r.constants;
   }
-  std::vector<FlightGain> gains;
-  for (const Sum& sum : sums)
-    gains.push_back(inverse.topRows<kFlightParameters>() * sum);
-  return gains;
+  return sums;
 }
 
 }  // namespace fastball::vision_tracker

@@ -64,7 +64,8 @@ class FlightProblem {
   template <int Rows, int Columns>
   void addEquations(bool cutting, Information& information, Unknowns& gradient) const;
   double clockOf(int camera) const { return camera == 0 ? 0 : x_[kClock + camera - 1]; }
-  std::vector<FlightGain> constantSums(const Information& inverse) const;
+  std::vector<Eigen::MatrixXd> constantSums() const;
+  ConstantsEvidence evidence(const Information& inverse, double scale) const;
 
   const std::vector<Observation>& observations_;
   std::size_t first_;

@@ -448,7 +448,7 @@ RingMeasurement measureRing(const std::vector<const cv::Mat*>& still,
                             const Ring& nominal,
                             const RingPrior& prior,
                             double blur) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 8, kFirstRounds = 2;
   constexpr double kSettled = 1e-5;  // [m]
   constexpr double kNear = 0.02;     // [m], what the coarse search leaves
   RingMeasurement result;
@@ -482,8 +482,14 @@ RingMeasurement measureRing(const std::vector<const cv::Mat*>& still,
           finders[c].points(ring, shifts[c], static_cast<int>(c), &looked);
       looked_at += looked;
       seen += static_cast<int>(found.size());
-      if (static_cast<double>(found.size()) >= kLeastSeen * looked)
+      if (static_cast<double>(found.size()) >= kLeastSeen * looked) {
         points.insert(points.end(), found.begin(), found.end());
+      } else if (round >= kFirstRounds) {
+        // What one camera takes for a ring may be a joint in the wall.
+        result.why_not =
+            fmt::format("camera {} sees the ring at only {} of {} places", c, found.size(), looked);
+        return result;
+      }
     }
     if (points.empty()) {
       result.why_not = fmt::format("the ring is seen at only {} of {} places", seen, looked_at);
@@ -497,11 +503,11 @@ RingMeasurement measureRing(const std::vector<const cv::Mat*>& still,
     }
     const double moved = (estimate->ring.p_W - ring.p_W).norm();
     // Half-way after the first rounds: what is seen at the ends of a ring seen from its edge depends on where one looks.
-    const double part = round < 2 ? 1.0 : 0.5;
+    const double part = round < kFirstRounds ? 1.0 : 0.5;
     ring = ring.moved(part * between(ring, estimate->ring));
     for (std::size_t c = 0; c < shifts.size(); ++c)
       shifts[c] += part * (estimate->shifts[c] - shifts[c]);
-    if (round >= 2 && moved < kSettled)
+    if (round >= kFirstRounds && moved < kSettled)
       break;
   }
   ring = estimate->ring;

@@ -8,8 +8,9 @@
 namespace fastball::vision_tracker {
 
 /// Where a flight crosses the plane of a ring that the same cameras measured, in the ring's own coordinates. An error of a
-/// camera's calibration moves the flight and the ring alike: with K = d landing / d constants of both together,
-///   cov = noise of the flight + noise of the ring + sum over cameras of K S K^T.
+/// camera's calibration moves both alike, by K = d landing / d constants. What the residuals of both say of the constants c (the
+/// cameras disagree about heights) is taken into account: with their covariance P given that and the calibration's own,
+///   landing - K c,   cov = noise of the flight + noise of the ring + K P K^T.
 /// Nothing as landingOf of a known target.
 std::optional<LandingEstimate> landingOf(const FlightEstimate& flight,
                                          const RingEstimate& ring,

@@ -67,10 +67,17 @@ class RingProblem {
 
   void evaluate(const Ring& ring) {
     ring_ = ring;
+    before_ = std::move(residuals_);
     residuals_.clear();
     for (const RingPoint& point : points_)
       residuals_.push_back(
           residualOf(point, cameras_[static_cast<std::size_t>(point.camera)], ring));
+  }
+
+  /// The weights of the evaluation before.
+  void keepWeights() {
+    for (std::size_t i = 0; i < residuals_.size(); ++i)
+      residuals_[i].weight = before_[i].weight;
   }
 
   /// Weights from the residuals beside those of the same camera.
@@ -91,16 +98,16 @@ class RingProblem {
     }
   }
 
-  Vector6 step(Matrix6* information) const {
-    *information = information_;
+  Vector6 step() const {
+    Matrix6 information = information_;
     Vector6 gradient = information_ * between(ring_, nominal_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Residual& r = residuals_[i];
       const double w = r.weight / points_[i].variance;
-      *information += w * r.jacobian.transpose() * r.jacobian;
+      information += w * r.jacobian.transpose() * r.jacobian;
       gradient += w * r.jacobian.transpose() * r.error;
     }
-    return information->ldlt().solve(gradient);
+    return information.ldlt().solve(gradient);
   }
 
   RingEstimate estimate() const {
@@ -119,18 +126,23 @@ class RingProblem {
     const double freedom = std::max(1.0, static_cast<double>(e.used) - 6);
     const double scale = std::max(1.0, normalised / freedom);
     Matrix6 information = information_;
-    std::vector<Eigen::Matrix<double, 6, 9>> sums(cameras_.size(),
-                                                  Eigen::Matrix<double, 6, 9>::Zero());
+    std::vector<Eigen::MatrixXd> sums(cameras_.size(), Eigen::MatrixXd::Zero(6, kCameraConstants));
+    std::vector<Eigen::Matrix<double, kCameraConstants, kCameraConstants>> squared(
+        cameras_.size(), Eigen::Matrix<double, kCameraConstants, kCameraConstants>::Zero());
+    std::vector<CameraConstants> gradients(cameras_.size(), CameraConstants::Zero());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Residual& r = residuals_[i];
-      const Eigen::Matrix<double, 6, 1> half =
-          r.weight / (points_[i].variance * scale) * r.jacobian.transpose();
-      information += half * r.jacobian;
-      sums[static_cast<std::size_t>(points_[i].camera)] += half * r.constants;
+      const auto c = static_cast<std::size_t>(points_[i].camera);
+      const double w = r.weight / (points_[i].variance * scale);
+      information += w * r.jacobian.transpose() * r.jacobian;
+      sums[c] += w * r.jacobian.transpose() * r.constants;
+      squared[c] += w * r.constants.transpose() * r.constants;
+      gradients[c] += w * r.constants.transpose() * r.error;
     }
-    e.cov = information.ldlt().solve(Matrix6::Identity());
-    for (const Eigen::Matrix<double, 6, 9>& sum : sums)
+    e.cov = information.inverse();
+    for (const Eigen::MatrixXd& sum : sums)
       e.gains.emplace_back(e.cov * sum);
+    e.evidence = evidenceOf(squared, gradients, sums, e.cov);
     return e;
   }
 
@@ -161,7 +173,7 @@ class RingProblem {
   const std::vector<model::Camera>& cameras_;
   Ring nominal_, ring_;
   Matrix6 information_;  ///< of the prior
-  std::vector<Residual> residuals_;
+  std::vector<Residual> residuals_, before_;
   std::vector<Eigen::Vector2d> shifts_;
 };
 
@@ -207,9 +219,12 @@ std::optional<RingEstimate> fitRing(const std::vector<RingPoint>& points,
   Ring ring = guess;
   for (int i = 0; i < kIterations; ++i) {
     problem.evaluate(ring);
-    problem.weigh(i >= kRobustIterations);
-    Matrix6 information;
-    const Vector6 change = problem.step(&information);
+    // At last with fixed weights: a point at the limit would come and go.
+    if (i < kIterations - 4)
+      problem.weigh(i >= kRobustIterations);
+    else
+      problem.keepWeights();
+    const Vector6 change = problem.step();
     if (!change.allFinite() || change.head<3>().norm() > 10 * prior.position ||
         change.segment<2>(3).norm() > 1)
       return std::nullopt;
@@ -229,6 +244,9 @@ RingEstimate unseenRing(const Ring& nominal, const RingPrior& prior, std::size_t
   estimate.ring = nominal;
   estimate.cov = priorInformation(prior).inverse();
   estimate.gains.assign(cameras, Eigen::Matrix<double, 6, 9>::Zero());
+  const auto constants = static_cast<Eigen::Index>(cameras * kCameraConstants);
+  estimate.evidence = {Eigen::MatrixXd::Zero(constants, constants),
+                       Eigen::VectorXd::Zero(constants)};
   estimate.shifts.assign(cameras, Eigen::Vector2d::Zero());
   return estimate;
 }

@@ -56,6 +56,7 @@ struct RingEstimate {
   Eigen::Matrix<double, 6, 6> cov = Eigen::Matrix<double, 6, 6>::Zero();
   /// For each camera d (centre, turns, radius) / d its constants, the bias that of the ring's image.
   std::vector<Eigen::Matrix<double, 6, kCameraConstants>> gains;
+  ConstantsEvidence evidence;  ///< what the points' residuals say of the cameras' constants
   /// [px], for each camera how far all its points together lie from the ring's image.
   std::vector<Eigen::Vector2d> shifts;
   double residual_px = 0;  ///< rms of the points used, the shifts taken off

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
+#include "vision_tracker/ring_finder.h"
+#include "vision_tracker/ring_landing.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
@@ -51,11 +53,14 @@ void ThrowTracker::setCamera(int index, const CameraSetup& setup) {
     eyes_[i] = eye;
     cameras_[i] = setup.camera;
   }
-  begin(target_);
+  begin(given_);
 }
 
 void ThrowTracker::begin(const model::Target& target) {
+  given_ = target;
   target_ = target;
+  ring_.reset();
+  ring_note_.clear();
   state_ = State::kWaiting;
   finder_.reset();
   for (Eye& eye : eyes_) {
@@ -91,7 +96,7 @@ void ThrowTracker::takeFlight(const FreeFlight& followed) {
   followed_ = followed;
   latest_utime_ = observations_.back().utime;
   latest_ = followed.flight.at(latest_utime_, options_.prior.gravity);
-  predicted_ = landingOf(followed.flight, target_, options_.prior.gravity);
+  predicted_ = landingOn(followed.flight);
 }
 
 void ThrowTracker::expectWay() {
@@ -145,7 +150,7 @@ Sighting ThrowTracker::searchIn(int camera, int64_t utime, const cv::Mat& image)
   const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
   moment_.push_back({camera, utime, eye.detector.search(image, eye.background)});
   const std::vector<BallFit>& fits = moment_.back().fits;
-  return fits.empty() ? Sighting{} : Sighting{true, fits.front()};
+  return fits.empty() ? Sighting{} : Sighting{true, fits.front(), false, fits};
 }
 
 Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image) {
@@ -156,11 +161,11 @@ Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image)
   const BallFit fit =
       eye.detector.at(image, eye.background, expected.p_WBall, expected.v_WBall, uncertainty);
   if (!fit.converged)
-    return {};
+    return {false, {}, true, {}};
   // Near the plane the ring may touch the ball: seen, but no longer a part of the free flight.
   if (target_.distance(expected.p_WBall) > kClear * options_.prior.ball_radius)
     observe(utime, camera, fit, expected.p_WBall);
-  return {true, fit};
+  return {true, fit, true, {fit}};
 }
 
 void ThrowTracker::observe(int64_t utime,
@@ -211,15 +216,37 @@ void ThrowTracker::startTrack(const FlightFinder::Found& found) {
   const auto flight =
       fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
   misses_ = 0;
-  if (!flight) {
-    observations_.clear();
+  if (!flight || !landingOf(*flight, given_, options_.prior.gravity)) {
+    observations_.clear();  // nothing that flies, or something that flies elsewhere
     return;
   }
   for (Eye& eye : eyes_)
     eye.way = {};
+  if (options_.measure_target && !ring_)
+    measureTarget();
   takeFlight({*flight});
   state_ = State::kTracking;
   finder_.reset();
+}
+
+void ThrowTracker::measureTarget() {
+  const Ring nominal{given_.p_WTarget, given_.n_WTarget, given_.radius + options_.ring.tube / 2};
+  std::vector<const cv::Mat*> still;
+  for (const Eye& eye : eyes_)
+    still.push_back(&eye.background.mean());
+  const RingMeasurement measured =
+      measureRing(still, cameras_, nominal, options_.ring, options_.detector.blur);
+  ring_ =
+      measured.estimate ? *measured.estimate : unseenRing(nominal, options_.ring, cameras_.size());
+  target_ = ring_->ring.target(given_.radius);
+  if (!measured.estimate)
+    ring_note_ = "the target was not measured but taken as given: " + measured.why_not;
+}
+
+std::optional<LandingEstimate> ThrowTracker::landingOn(const FlightEstimate& flight) const {
+  if (ring_)
+    return landingOf(flight, *ring_, given_.radius, options_.prior, options_.ring);
+  return landingOf(flight, target_, options_.prior.gravity);
 }
 
 void ThrowTracker::updateTrack() {
@@ -274,7 +301,7 @@ void ThrowTracker::land() {
   observations_.erase(end, observations_.end());
   const auto flight = fitFreeFlight(observations_, cameras_, options_.prior,
                                     followed_->flight.start, followed_->flight.utime, nullptr);
-  const auto landing = flight ? landingOf(*flight, target_, options_.prior.gravity) : std::nullopt;
+  const auto landing = flight ? landingOn(*flight) : std::nullopt;
   if (!landing || flight->used < kLeastForLanding) {
     giveUp(fmt::format("only {} observations agree with a flight, {} are needed",
                        flight ? flight->used : 0, kLeastForLanding));
@@ -291,7 +318,7 @@ void ThrowTracker::land() {
   followed_ = FreeFlight{*flight};
   predicted_ = landing;
   landing_report_ = LandingReport{
-      true, "", *landing, flight->used, flight->residual_px, flight->clock, flight->clock_sigma};
+      true, ring_note_, *landing, flight->used, flight->residual_px, flight->clock, flight->clock_sigma};
   state_ = State::kLanded;
 }
 

@@ -13,6 +13,7 @@
 #include "vision_tracker/flight_finder.h"
 #include "vision_tracker/flight_landing.h"
 #include "vision_tracker/free_flight.h"
+#include "vision_tracker/ring_pose.h"
 
 namespace fastball::vision_tracker {
 
@@ -22,6 +23,9 @@ struct TrackerOptions {
   FlightPrior prior;
   double longest_gap =
       0;  ///< [s], from the last observation to the crossing; a longer one is not measured
+  /// The target's pose is the one given, or is measured: the ring as the cameras see it when the track starts.
+  bool measure_target = false;
+  RingPrior ring;  ///< for a measured one: how well the pose given is known
 };
 
 /// How a camera sees.
@@ -34,7 +38,9 @@ struct CameraSetup {
 /// What became of one image.
 struct Sighting {
   bool found = false;
-  BallFit fit;
+  BallFit fit;           ///< of the ball tracked; before that of the most ball-like thing
+  bool tracked = false;  ///< a flight is followed, not only looked for
+  std::vector<BallFit> candidates;  ///< all ball-like things; only the ball where it is tracked
 };
 
 /// The flight as it is known after a time.
@@ -50,7 +56,7 @@ struct TrackReport {
 /// The result of a throw.
 struct LandingReport {
   bool measured = false;
-  std::string message;  ///< why not
+  std::string message;  ///< why not, or why the target was not measured
   LandingEstimate landing;
   int observations = 0;
   double residual_px = 0;
@@ -100,6 +106,8 @@ class ThrowTracker {
   void loseTrack();
   void land();
   void giveUp(const std::string& why);
+  void measureTarget();
+  std::optional<LandingEstimate> landingOn(const FlightEstimate& flight) const;
   bool passed(int64_t utime) const;
   /// The ball at what a camera's clock calls utime.
   model::BallState expectedAt(int64_t utime, int camera) const;
@@ -111,7 +119,10 @@ class ThrowTracker {
   TrackerOptions options_;
   std::vector<Eye> eyes_;
   std::vector<model::Camera> cameras_;
-  model::Target target_;
+  model::Target given_;               ///< as begin() was told
+  model::Target target_;              ///< as far as it is known
+  std::optional<RingEstimate> ring_;  ///< of a target to be measured, once it was looked for
+  std::string ring_note_;             ///< why it was not measured
   FlightFinder finder_;
   State state_ = State::kWaiting;
 

@@ -129,6 +129,49 @@ TEST_P(TrackerOnManyThrows, LandsWithinThreeMillimetresAndSaysHowWell) {
 
 INSTANTIATE_TEST_SUITE_P(TwentySeeds, TrackerOnManyThrows, ::testing::Range(0, 4));
 
+// A turned camera moves the ball and the net in its images alike.
+TEST_F(TrackerOnImages, MeasuresAgainstTheNetWhereTheCalibrationIsWrong) {
+  const SyntheticThrow synthetic = bench::makeThrow(experiment_, 3);
+  TrackerOptions options = readTracker(testing::experimentPath()).tracker;
+  options.prior.calibration = {0.5e-3, 1e-3, 1e-3};
+  const std::vector<RenderedImage> images = drawn(synthetic);
+  double errors[2] = {};
+  for (const bool measured : {false, true}) {
+    options.measure_target = measured;
+    tracker_ = ThrowTracker(options);
+    for (int i = 0; i < 2; ++i) {
+      sim_bullet::RigCamera c = rig_.cameras()[static_cast<std::size_t>(i)];
+      const double way = i == 0 ? 1 : -1;
+      c.camera = displaced(
+          c.camera, (CameraConstants() << 0, 0, 0, way * 7e-4, 0, 0, 1e-3, 0, 1e-3).finished());
+      tracker_.setCamera(i, {c.camera, c.rate, c.exposure});
+    }
+    const LandingReport report = track(images);
+    ASSERT_TRUE(report.measured) << report.message;
+    EXPECT_EQ(report.message, "");
+    errors[measured] = (report.landing.landing - synthetic.landing.landing).norm();
+  }
+  EXPECT_GT(errors[false], 8e-3);
+  EXPECT_LT(errors[true], 2e-3);
+}
+
+TEST_F(TrackerOnImages, TakesTheTargetAsGivenWhereItSeesNone) {
+  TrackerOptions options = readTracker(testing::experimentPath()).tracker;
+  options.measure_target = true;
+  const double position = options.ring.position;
+  tracker_ = ThrowTracker(options);
+  for (int i = 0; i < 2; ++i) {
+    const sim_bullet::RigCamera& c = rig_.cameras()[static_cast<std::size_t>(i)];
+    tracker_.setCamera(i, {c.camera, c.rate, c.exposure});
+  }
+  const std::vector<RenderedImage> images = drawn(bench::makeThrow(experiment_, 3));
+  experiment_.target.p_WTarget.x() -= 0.4;  // there the cameras see the wall
+  const LandingReport report = track(images);
+  ASSERT_TRUE(report.measured) << report.message;
+  EXPECT_NE(report.message.find("taken as given"), std::string::npos) << report.message;
+  EXPECT_GT(std::sqrt(report.landing.cov(0, 0)), 0.9 * position);
+}
+
 TEST_F(TrackerOnImages, SaysTheSameBitForBitAgain) {
   const std::vector<RenderedImage> images = drawn(bench::makeThrow(experiment_, 2));
   const LandingReport first = track(images);
