@@ -10,7 +10,7 @@
 namespace fastball::vision_tracker {
 namespace {
 
-constexpr std::size_t kMoments = 10;  // 42 ms at 240 Hz
+constexpr std::size_t kMoments = 12;  // 50 ms at 240 Hz
 constexpr std::size_t kLeastPoints = 6;
 constexpr double kLargestMiss = 2.0;        // [px], reprojection
 constexpr double kLargestSizeError = 0.15;  // of the ball's radius in the image
@@ -56,6 +56,34 @@ const BallFit* earlier(const BallFit& fit, const std::vector<BallFit>& before) {
       nearest = &other;
   }
   return nearest;
+}
+
+/// Whether the points fall as free things do: a ball that rolls, hangs or is carried keeps to the same tolerance over so short a
+/// time, but its height has another curvature.
+bool falls(const std::vector<SpatialPoint>& points, double gravity) {
+  constexpr double kShare = 0.4;  // of gravity, by which the measured one may differ
+  constexpr double kSure = 0.15;  // of gravity, standard deviation of the measured one at most
+  constexpr double kLeastNoise = 1e-4;  // [m], of a height
+  const auto count = static_cast<Eigen::Index>(points.size());
+  if (count < 4)
+    return false;
+  if (points.front().views.size() < 2)
+    return true;  // a single camera's depths are too rough to tell
+  Eigen::MatrixX3d powers(count, 3);
+  Eigen::VectorXd heights(count);
+  const int64_t middle = (points.front().utime + points.back().utime) / 2;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const SpatialPoint& point = points[static_cast<std::size_t>(i)];
+    const double t = static_cast<double>(point.utime - middle) * 1e-6;
+    powers.row(i) << 1, t, -t * t / 2;
+    heights[i] = point.p_W.z();
+  }
+  const Eigen::Matrix3d inverse = (powers.transpose() * powers).inverse();
+  const Eigen::Vector3d fit = inverse * (powers.transpose() * heights);
+  const double noise = std::max(
+      kLeastNoise, (heights - powers * fit).norm() / std::sqrt(static_cast<double>(count - 3)));
+  return std::abs(fit[2] - gravity) < kShare * gravity &&
+         noise * std::sqrt(inverse(2, 2)) < kSure * gravity;
 }
 
 }  // namespace
@@ -210,7 +238,7 @@ std::optional<FlightFinder::Found> FlightFinder::search() const {
         if (!(v_W.norm() > kSlowest && v_W.norm() < kFastest))
           continue;
         Found found = pointsOn({from.p_W, v_W}, history_[i].utime);
-        if (found.points.size() >= kLeastPoints)
+        if (found.points.size() >= kLeastPoints && falls(found.points, gravity_))
           return found;
       }
     }

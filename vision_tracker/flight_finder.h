@@ -39,7 +39,8 @@ struct SpatialPoint {
   double doubt = 0;
 };
 
-/// Looks for something that flies: among the points of the last ten times, some that lie on one free fall. A point is a pair of
+/// Looks for something that flies: among the points of the last twelve times, some that lie on one free fall,
+/// which where two cameras see them must show in their heights. A point is a pair of
 /// things in two cameras that lie on one point of space within 2 px and have the size of the ball there. Where two cameras
 /// have no image of one instant, the things in the one that came later are taken, on the line between its image before and its
 /// image after, at the time of the other; where the clocks are uncertain, the 2 px grow by what the thing moves meanwhile. A
