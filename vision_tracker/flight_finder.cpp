@@ -71,10 +71,10 @@ bool falls(const std::vector<SpatialPoint>& points, double gravity) {
     return true;  // a single camera's depths are too rough to tell
   Eigen::MatrixX3d powers(count, 3);
   Eigen::VectorXd heights(count);
-  const int64_t middle = (points.front().utime + points.back().utime) / 2;
+  const int64_t middle = (points.front().views.front().utime + points.back().views.front().utime) / 2;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SpatialPoint& point = points[static_cast<std::size_t>(i)];
-    const double t = static_cast<double>(point.utime - middle) * 1e-6;
+    const double t = static_cast<double>(point.views.front().utime - middle) * 1e-6;
     powers.row(i) << 1, t, -t * t / 2;
     heights[i] = point.p_W.z();
   }
