@@ -131,6 +131,7 @@ ImageTrial imageTrial(const DrawnThrow& drawn,
   }
   tracker.begin(knowledge.target);
   ImageTrial trial;
+  cv::Mat decoded;
   for (const sim_bullet::RenderedImage& image : drawn.images) {
     const auto start = std::chrono::steady_clock::now();
     const double worked = workedSeconds();

@@ -63,7 +63,7 @@ struct FlightEstimate {
   /// [s], of each camera: how far its clock is ahead of the first one's, and the standard deviation of that.
   std::vector<double> clock, clock_sigma;
   ConstantsEvidence evidence;  ///< what the residuals say of the cameras' constants
-  double residual_px = 0;  ///< [px], rms per axis of the observations used
+  double residual_px = 0;      ///< [px], rms per axis of the observations used
   /// Standard deviation of the residuals over that which the observations' covariances say; it is in `cov`. A few residuals
   /// hardly move it from 1.
   double scale = 1;

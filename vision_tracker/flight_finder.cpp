@@ -71,7 +71,8 @@ bool falls(const std::vector<SpatialPoint>& points, double gravity) {
     return true;  // a single camera's depths are too rough to tell
   Eigen::MatrixX3d powers(count, 3);
   Eigen::VectorXd heights(count);
-  const int64_t middle = (points.front().views.front().utime + points.back().views.front().utime) / 2;
+  const int64_t middle =
+      (points.front().views.front().utime + points.back().views.front().utime) / 2;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SpatialPoint& point = points[static_cast<std::size_t>(i)];
     const double t = static_cast<double>(point.views.front().utime - middle) * 1e-6;

@@ -209,8 +209,7 @@ FlightEstimate FlightProblem::estimate(const Information& information) const {
   e.cov = e.noise_cov;
   const CameraConstants variances = constantVariances(prior_.bias_sigma, prior_.calibration);
   for (const Eigen::MatrixXd& sum : constantSums()) {
-    const FlightGain gain =
-        inverse.topRows<kFlightParameters>() * sum / (e.scale * e.scale);
+    const FlightGain gain = inverse.topRows<kFlightParameters>() * sum / (e.scale * e.scale);
     e.cov += gain * variances.asDiagonal() * gain.transpose();
     e.gains.push_back(gain);
   }

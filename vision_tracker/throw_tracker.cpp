@@ -317,8 +317,9 @@ void ThrowTracker::land() {
   }
   followed_ = FreeFlight{*flight};
   predicted_ = landing;
-  landing_report_ = LandingReport{
-      true, ring_note_, *landing, flight->used, flight->residual_px, flight->clock, flight->clock_sigma};
+  landing_report_ =
+      LandingReport{true,          ring_note_,         *landing, flight->used, flight->residual_px,
+                    flight->clock, flight->clock_sigma};
   state_ = State::kLanded;
 }
 
