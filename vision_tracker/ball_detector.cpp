@@ -105,7 +105,23 @@ cv::Rect BallDetector::area(const Eigen::Vector3d& p_WBall) const {
   return cv::Rect(low, high) & cv::Rect(0, 0, camera_.width, camera_.height);
 }
 
+bool BallDetector::hasBrightness(const BallFit& fit, const cv::Mat& image) const {
+  if (options_.darkest <= 0 && options_.brightest >= 255)
+    return true;
+  const double half = fit.radius / 2;
+  const cv::Rect middle = cv::Rect(cv::Point(static_cast<int>(fit.centre.x() - half),
+                                             static_cast<int>(fit.centre.y() - half)),
+                                   cv::Point(static_cast<int>(fit.centre.x() + half) + 1,
+                                             static_cast<int>(fit.centre.y() + half) + 1)) &
+                          cv::Rect(0, 0, image.cols, image.rows);
+  if (middle.empty())
+    return false;
+  const double mean = cv::mean(image(middle))[0];
+  return mean >= options_.darkest && mean <= options_.brightest;
+}
+
 BallFit BallDetector::accepted(BallFit fit,
+                               const cv::Mat& image,
                                double expected_radius,
                                double tolerance,
                                double noise) const {
@@ -113,7 +129,7 @@ BallFit BallDetector::accepted(BallFit fit,
   const bool round = fit.residual < 2.5 * noise + 0.08 * fit.contrast;
   const bool bright = fit.contrast > threshold(noise);
   const bool sized = std::abs(fit.radius - expected_radius) < tolerance;
-  fit.converged = fit.converged && round && bright && sized;
+  fit.converged = fit.converged && round && bright && sized && hasBrightness(fit, image);
   fit.cov += options_.noise_floor * options_.noise_floor * Eigen::Matrix2d::Identity();
   fit.radius_variance += options_.noise_floor * options_.noise_floor;
   return fit;
@@ -140,7 +156,7 @@ std::vector<BallFit> BallDetector::search(const cv::Mat& image,
     guess.outline = sphereOutline(camera_, p_W, options_.ball_radius);
     guess.radius_sigma = 0.3 * radius;
     const BallFit fit = accepted(fitBall(image, background.mean(), guess, options_.blur, noise),
-                                 (least + most) / 2, (most - least) / 2 + 1, noise);
+                                 image, (least + most) / 2, (most - least) / 2 + 1, noise);
     if (fit.converged && (fit.centre - blob.centre).norm() < 0.5 * radius + kStride)
       found.push_back(fit);
     else if (options_.keep_uneven)
@@ -166,7 +182,7 @@ BallFit BallDetector::at(const cv::Mat& image,
   camera_.project(p_WBall, &projection);
   guess.motion = projection * v_WBall * exposure_;
   const auto fitted = [&] {
-    return accepted(fitBall(image, background.mean(), guess, options_.blur, noise), radius,
+    return accepted(fitBall(image, background.mean(), guess, options_.blur, noise), image, radius,
                     0.12 * radius, noise);
   };
   BallFit fit = fitted();

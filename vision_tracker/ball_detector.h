@@ -16,6 +16,8 @@ struct DetectorOptions {
   double nearest = 0, farthest = 0;  ///< [m], the ball's depth before a camera
   double blur = 0;                   ///< [px], standard deviation of lens and pixel together
   double noise_floor = 0;            ///< [px], per axis, added to the fit's own covariance
+  /// [grey levels], of the ball's middle: what is known of its brightness. The whole range assumes nothing.
+  double darkest = 0, brightest = 255;
   /// search() also gives round things on which no matt ball fits (patterned, shiny, smeared), with the centre of their area.
   bool keep_uneven = false;
 };
@@ -38,7 +40,12 @@ class BallDetector {
   cv::Rect area(const Eigen::Vector3d& p_WBall) const;
 
  private:
-  BallFit accepted(BallFit fit, double expected_radius, double tolerance, double noise) const;
+  BallFit accepted(BallFit fit,
+                   const cv::Mat& image,
+                   double expected_radius,
+                   double tolerance,
+                   double noise) const;
+  bool hasBrightness(const BallFit& fit, const cv::Mat& image) const;
 
   model::Camera camera_;
   double exposure_;

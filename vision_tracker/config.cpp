@@ -47,6 +47,11 @@ TrackerConfig readTracker(const std::string& path) {
     throw section.error("depth", "must give the nearer depth first");
   detector.blur = section.number("blur", {0.3, 5});
   detector.noise_floor = section.number("noise_floor", {1e-3, 5});
+  const Eigen::VectorXd brightness = section.vector("brightness", 2, {0, 255});
+  detector.darkest = brightness[0];
+  detector.brightest = brightness[1];
+  if (!(detector.darkest < detector.brightest))
+    throw section.error("brightness", "must give the darker level first");
   FlightPrior& prior = config.tracker.prior;
   prior.gravity = experiment.arm.gravity;
   prior.ball_radius = experiment.ball.radius;

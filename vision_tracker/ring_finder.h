@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "model/camera.h"
@@ -52,19 +51,5 @@ class RingFinder {
   cv::Mat grey_;                   ///< CV_32F of the area
   cv::Mat across_, mixed_, down_;  ///< CV_32F, second derivatives of the smoothed area
 };
-
-/// What became of the search.
-struct RingMeasurement {
-  std::optional<RingEstimate> estimate;
-  std::string why_not;
-};
-
-/// The pose of the ring from all cameras' images of the still scene (as Background::mean()). The nominal pose may be wrong by
-/// three times what `prior` says. @param blur [px] of the images, standard deviation
-RingMeasurement measureRing(const std::vector<const cv::Mat*>& still,
-                            const std::vector<model::Camera>& cameras,
-                            const Ring& nominal,
-                            const RingPrior& prior,
-                            double blur);
 
 }  // namespace fastball::vision_tracker

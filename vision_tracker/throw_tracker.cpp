@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
-#include "vision_tracker/ring_finder.h"
+#include "vision_tracker/ring_measurement.h"
 #include "vision_tracker/ring_landing.h"
 #include "vision_tracker/sphere_outline.h"
 

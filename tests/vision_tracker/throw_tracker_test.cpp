@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <tuple>
 
 #include "bench/synthetic_throw.h"
 #include "tests/vision_tracker/experiment_path.h"
@@ -228,6 +229,22 @@ TEST_F(TrackerOnImages, SaysSoIfNothingFlies) {
   EXPECT_FALSE(report.measured);
   EXPECT_NE(report.message.find("nothing that flies like the ball"), std::string::npos)
       << report.message;
+}
+
+TEST_F(TrackerOnImages, FollowsOnlyABallOfTheBrightnessThatIsGiven) {
+  const std::vector<RenderedImage> images = drawn(bench::makeThrow(experiment_, 4));
+  for (const auto& [darkest, brightest, measured] :
+       {std::make_tuple(20.0, 255.0, true), std::make_tuple(0.0, 20.0, false)}) {
+    TrackerOptions options = readTracker(testing::experimentPath()).tracker;
+    options.detector.darkest = darkest;
+    options.detector.brightest = brightest;
+    tracker_ = ThrowTracker(options);
+    for (int i = 0; i < 2; ++i) {
+      const sim_bullet::RigCamera& c = rig_.cameras()[static_cast<std::size_t>(i)];
+      tracker_.setCamera(i, {c.camera, c.rate, c.exposure});
+    }
+    EXPECT_EQ(track(images).measured, measured) << darkest << " to " << brightest;
+  }
 }
 
 TEST_F(TrackerOnImages, SaysSoIfTheImagesEndBeforeTheLanding) {

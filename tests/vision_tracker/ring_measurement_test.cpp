@@ -1,4 +1,4 @@
-#include "vision_tracker/ring_finder.h"
+#include "vision_tracker/ring_measurement.h"
 
 #include <gtest/gtest.h>
 
