@@ -9,6 +9,7 @@
 #include <random>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "messaging/lcm_endpoint.h"
 
