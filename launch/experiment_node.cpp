@@ -237,7 +237,7 @@ void ExperimentNode::giveUpWaiting() {
     finishThrow();
     return;
   }
-  fail(fmt::format("throw {}: {} (run.answer_timeout {} s)", number_, waitingFor(),
+  stop(fmt::format("throw {}: {} (run.answer_timeout {} s)", number_, waitingFor(),
                    settings_.config.answer_timeout));
 }
 

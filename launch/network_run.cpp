@@ -13,6 +13,7 @@
 
 #include "launch/experiment_node.h"
 #include "launch/processes.h"
+#include "launch/silence_watch.h"
 #include "launch/verdicts.h"
 #include "messaging/heartbeat.h"
 #include "messaging/lcm_endpoint.h"
@@ -65,14 +66,24 @@ std::vector<ProcessCommand> commands(const RunSetup& setup) {
   return all;
 }
 
+std::vector<std::string> namesOf(const std::vector<ProcessCommand>& all) {
+  std::vector<std::string> names;
+  for (const ProcessCommand& command : all)
+    names.push_back(command.name);
+  return names;
+}
+
 /// The run while it goes on: one loop that hears, acts and watches the processes.
 class NetworkRun {
  public:
   NetworkRun(const RunSetup& setup, Progress& progress)
       : setup_(setup),
+        commands_(commands(setup)),
+        peers_(namesOf(commands_)),
         progress_(progress),
         endpoint_(setup.options.lcm_url),
         roster_(endpoint_),
+        silence_(endpoint_, clock_),
         experiment_(endpoint_, clock_, roster_, setup.settings),
         judge_(endpoint_),
         verdicts_(experiment_, judge_, setup.settings.target.radius, progress),
@@ -86,7 +97,10 @@ class NetworkRun {
   /// Finds the processes of a system.
   void joinSystem();
   void conduct();
-  void stopProcesses();
+  /// @return what went wrong in doing so, empty: nothing.
+  std::string stopProcesses();
+  /// Who has not been heard for half the time that an answer may take, as an addition to a sentence.
+  std::string silence() const;
 
   const ExperimentNode& experiment() const { return experiment_; }
   const Verdicts& verdicts() const { return verdicts_; }
@@ -100,11 +114,14 @@ class NetworkRun {
   void refuseStrangers() const;
 
   const RunSetup& setup_;
+  const std::vector<ProcessCommand> commands_;
+  const std::vector<std::string> peers_;
   Progress& progress_;
   messaging::StopSignals signals_;
   messaging::SystemClock clock_;
   messaging::LcmEndpoint endpoint_;
   Roster roster_;
+  SilenceWatch silence_;
   ExperimentNode experiment_;
   Judge judge_;
   Verdicts verdicts_;
@@ -144,7 +161,16 @@ void NetworkRun::watch() {
     throw std::runtime_error("interrupted");
   if (const auto ended = processes_.ended())
     throw std::runtime_error(*ended);
+  const double timeout = setup_.settings.config.answer_timeout;
+  const std::string silent = silence_.silentFor(timeout, peers_);
+  if (!silent.empty())
+    throw std::runtime_error(fmt::format("{} (run.answer_timeout {} s)", silent, timeout));
   refuseStrangers();
+}
+
+std::string NetworkRun::silence() const {
+  const std::string silent = silence_.silentFor(setup_.settings.config.answer_timeout / 2, peers_);
+  return silent.empty() ? "" : "; " + silent;
 }
 
 bool NetworkRun::isOurs(const heartbeat_t& heartbeat) const {
@@ -176,20 +202,17 @@ void NetworkRun::listenForOthers() {
 }
 
 void NetworkRun::startProcesses() {
-  for (const ProcessCommand& command : commands(setup_))
+  for (const ProcessCommand& command : commands_)
     processes_.start(command);
   awaitProcesses(processes_.names());
 }
 
 void NetworkRun::joinSystem() {
-  std::vector<std::string> names;
-  for (const ProcessCommand& command : commands(setup_))
-    names.push_back(command.name);
-  awaitProcesses(names);
+  awaitProcesses(peers_);
   pumpFor(kHeartbeatPeriod, false);  // everyone's newest
   int64_t before = 0;
-  for (const ProcessCommand& command : commands(setup_))
-    before = std::max(before, roster_.newest(command.name)->plan_id);
+  for (const std::string& name : peers_)
+    before = std::max(before, roster_.newest(name)->plan_id);
   experiment_.continueAfter(before);
 }
 
@@ -232,12 +255,19 @@ void NetworkRun::conduct() {
   }
 }
 
-void NetworkRun::stopProcesses() {
+std::string NetworkRun::stopProcesses() {
   const double grace = signals_.received()
                            ? std::min(kInterruptedGrace, setup_.settings.config.stop_grace)
                            : setup_.settings.config.stop_grace;
   const std::vector<std::string> names = processes_.names();
-  processes_.stop(grace, kLogger);
+  std::string fault;
+  for (const std::string& name : processes_.stop(grace, kLogger)) {
+    std::string sentence =
+        fmt::format("{} did not end within {} s of SIGINT and was killed", name, grace);
+    if (name == kLogger)
+      fault = sentence += ": the log may lack its end";
+    progress_.line(sentence);
+  }
   endpoint_.drain();
   for (const std::string& name : names) {
     const heartbeat_t* last = roster_.newest(name);
@@ -250,6 +280,7 @@ void NetworkRun::stopProcesses() {
     progress_.line(fmt::format("the log is not whole: {} messages lost {}", logger_status_.lost,
                                logger_status_.message));
   }
+  return fault;
 }
 
 }  // namespace
@@ -265,10 +296,14 @@ void runOverNetwork(const RunSetup& setup, Progress& progress, RunResult& result
     }
     run.conduct();
     result.error = run.experiment().error();
+    if (!result.error.empty())
+      result.error += run.silence();
   } catch (const std::exception& e) {
     result.error = e.what();
   }
-  run.stopProcesses();
+  const std::string fault = run.stopProcesses();
+  if (result.error.empty())
+    result.error = fault;
   result.throws = run.verdicts().throws();
   result.throw_wall_s = run.experiment().throwWallTimes();
 }

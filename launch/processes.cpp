@@ -144,13 +144,13 @@ std::string Processes::lastOutput(const std::string& name) const {
   return prefixed;
 }
 
-bool Processes::stopSome(double grace, const std::vector<Process*>& some) {
+std::vector<std::string> Processes::stopSome(double grace, const std::vector<Process*>& some) {
   for (Process* process : some) {
     if (process->running())
       ::kill(process->child.id(), SIGINT);
   }
   const auto deadline = SteadyClock::now() + std::chrono::duration<double>(grace);
-  bool all_ended = true;
+  std::vector<std::string> killed;
   for (Process* process : some) {
     while (process->running() && SteadyClock::now() < deadline) {
       std::this_thread::sleep_for(kPollInterval);
@@ -158,21 +158,22 @@ bool Processes::stopSome(double grace, const std::vector<Process*>& some) {
     if (!process->running())
       continue;
     process->kill();
-    all_ended = false;
+    killed.push_back(process->name);
   }
-  return all_ended;
+  return killed;
 }
 
-bool Processes::stop(double grace, const std::string& last) {
+std::vector<std::string> Processes::stop(double grace, const std::string& last) {
   std::vector<Process*> first_ones;
   std::vector<Process*> last_ones;
   for (auto& process : processes_) {
     (process->name == last ? last_ones : first_ones).push_back(process.get());
   }
-  const bool first_ended = stopSome(grace, first_ones);
-  const bool last_ended = stopSome(grace, last_ones);
+  std::vector<std::string> killed = stopSome(grace, first_ones);
+  for (const std::string& name : stopSome(grace, last_ones))
+    killed.push_back(name);
   processes_.clear();
-  return first_ended && last_ended;
+  return killed;
 }
 
 std::string programFolder() {

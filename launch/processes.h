@@ -37,12 +37,12 @@ class Processes {
   std::string lastOutput(const std::string& name) const;
   /// Ends all processes but those named `last` by SIGINT, after `grace` [s] by SIGKILL; then, with
   /// a grace of their own, those.
-  /// @return false if one had to be killed.
-  bool stop(double grace, const std::string& last = "");
+  /// @return names of those that had to be killed.
+  std::vector<std::string> stop(double grace, const std::string& last = "");
 
  private:
   struct Process;
-  bool stopSome(double grace, const std::vector<Process*>& some);
+  std::vector<std::string> stopSome(double grace, const std::vector<Process*>& some);
   std::vector<std::unique_ptr<Process>> processes_;
 };
 

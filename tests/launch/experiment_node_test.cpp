@@ -121,6 +121,8 @@ TEST_P(SilenceTest, IsNamedAfterTheTimeout) {
   EXPECT_TRUE(flow());
   EXPECT_EQ(experiment.phase(), Phase::kFailed);
   EXPECT_THAT(experiment.error(), HasSubstr(GetParam().sentence));
+  network.run([] { return false; });
+  EXPECT_EQ(peers.estops.size(), 1U) << "whatever still moves shall brake";
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachPeer,

@@ -80,7 +80,7 @@ TEST(Processes, StopEndsTheLastOneLast) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   });
-  EXPECT_TRUE(processes.stop(60, "logger"));
+  EXPECT_TRUE(processes.stop(60, "logger").empty());
   watch.join();
   EXPECT_FALSE(alive(logger));
 }
@@ -90,7 +90,7 @@ TEST(Processes, StopKillsWhoDoesNotListen) {
   processes.start(shell("deaf", "trap '' INT TERM; echo ready; while :; do sleep 0.01; done"));
   await([&] { return processes.lastOutput("deaf") == "[deaf] ready"; });
   const int pid = processes.pid("deaf");
-  EXPECT_FALSE(processes.stop(0.05));
+  EXPECT_EQ(processes.stop(0.05), std::vector<std::string>{"deaf"});
   EXPECT_FALSE(alive(pid));
 }
 
