@@ -22,8 +22,6 @@
 #include <iterator>
 #include <thread>
 
-#include "messaging/lcm_endpoint.h"
-
 namespace fastball::system_test {
 namespace {
 
@@ -50,13 +48,15 @@ void pause() {
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-/// Adds `flag value` to a command line that does not have the flag.
-void addFlag(std::vector<std::string>& arguments,
-             const std::string& flag,
-             const std::string& value) {
-  if (std::find(arguments.begin(), arguments.end(), flag) == arguments.end()) {
-    arguments.insert(arguments.end(), {flag, value});
-  }
+/// Adds `flag value` to a command line that does not have the flag. @return the flag's value.
+std::string addFlag(std::vector<std::string>& arguments,
+                    const std::string& flag,
+                    const std::string& value) {
+  const auto found = std::find(arguments.begin(), arguments.end(), flag);
+  if (found != arguments.end())
+    return *std::next(found);
+  arguments.insert(arguments.end(), {flag, value});
+  return value;
 }
 
 /// Hands over the messages of `url` until `done`, or until `running` says no.
@@ -90,7 +90,7 @@ FastballRun::FastballRun(std::vector<std::string> arguments,
     if (has_network)
       addFlag(arguments, "--log", logPath());
     if (has_network)
-      addFlag(arguments, "--lcm-url", url_);
+      url_ = addFlag(arguments, "--lcm-url", url_);
   }
   std::vector<std::string> words = wrapper;
   words.emplace_back(FASTBALL_BIN_DIR "/fastball");
@@ -150,22 +150,29 @@ std::map<std::string, int> FastballRun::children() const {
   return found;
 }
 
-void FastballRun::awaitSwing() const {
+bool FastballRun::await(
+    const std::function<void(messaging::LcmEndpoint&, bool& reached)>& subscribe) const {
   messaging::LcmEndpoint endpoint(url_);
-  bool swings = false;
-  endpoint.subscribe<controller_status_t>(messaging::kControllerStatus, [&](const auto& status) {
-    swings = swings || status.phase == arm_command_t::SWING;
+  bool reached = false;
+  subscribe(endpoint, reached);
+  listen(endpoint, reached, [this] { return running(); });
+  return reached;
+}
+
+void FastballRun::awaitSwing() const {
+  const bool swings = await([](messaging::LcmEndpoint& endpoint, bool& reached) {
+    endpoint.subscribe<controller_status_t>(
+        messaging::kControllerStatus,
+        [&reached](const auto& m) { reached = reached || m.phase == arm_command_t::SWING; });
   });
-  listen(endpoint, swings, [this] { return running(); });
   ASSERT_TRUE(swings) << "ended before the arm swung: " << textOf(folder_ + "/output");
 }
 
 void FastballRun::awaitHeartbeat(const std::string& name) const {
-  messaging::LcmEndpoint endpoint(url_);
-  bool heard = false;
-  endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat,
-                                  [&](const auto& m) { heard = heard || m.name == name; });
-  listen(endpoint, heard, [this] { return running(); });
+  const bool heard = await([&name](messaging::LcmEndpoint& endpoint, bool& reached) {
+    endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat,
+                                    [&](const auto& m) { reached = reached || m.name == name; });
+  });
   ASSERT_TRUE(heard) << "ended before " << name << " was heard: " << textOf(folder_ + "/output");
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "messaging/lcm_endpoint.h"
 
 namespace fastball::system_test {
 
@@ -33,6 +36,9 @@ class FastballRun {
   int pid() const;
   /// Process ids of the programs it has started, by program name ("fastball-planner").
   std::map<std::string, int> children() const;
+  /// Listens on the run's network with what `subscribe` subscribes to, until one of its handlers has set `reached`.
+  /// @return false if the run ended before.
+  bool await(const std::function<void(messaging::LcmEndpoint&, bool& reached)>& subscribe) const;
   /// Waits until the arm swings in the first throw that this test hears of.
   void awaitSwing() const;
   /// Waits until a process called `name` says HEARTBEAT.

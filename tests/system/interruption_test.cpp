@@ -51,32 +51,6 @@ TEST(Interruption, CtrlCInMidSwingEndsAllAndLeavesAReadableLog) {
   EXPECT_EQ(estops, 1);
 }
 
-class Killed : public testing::TestWithParam<const char*> {};
-
-TEST_P(Killed, EndsTheRunAndIsNamed) {
-  FastballRun run({"run", "--throws", "100"});
-  ASSERT_NO_FATAL_FAILURE(run.awaitSwing());
-  const auto children = run.children();
-  ASSERT_EQ(children.size(), kPrograms);
-  std::string program = std::string("fastball-") + GetParam();
-  std::replace(program.begin(), program.end(), '_', '-');
-  kill(children.at(program), SIGKILL);
-  const Outcome outcome = run.wait();
-  EXPECT_EQ(outcome.exit_status, 1);
-  EXPECT_THAT(outcome.output, HasSubstr(std::string(GetParam()) + " was ended by signal 9"));
-  expectNoneOf(children);
-}
-
-INSTANTIATE_TEST_SUITE_P(Each,
-                         Killed,
-                         testing::Values("planner",
-                                         "controller",
-                                         "hand_server",
-                                         "sim_bullet",
-                                         "vision_tracker",
-                                         "logger"),
-                         [](const auto& test) { return test.param; });
-
 TEST(Interruption, EvenAKilledLauncherLeavesNoProcess) {
   FastballRun run({"run", "--throws", "100"});
   ASSERT_NO_FATAL_FAILURE(run.awaitSwing());

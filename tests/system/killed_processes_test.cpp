@@ -1,0 +1,148 @@
+// Each process is killed, and each is stopped, in each phase of a throw: the run ends and names it, the arm stays within its
+// limits, the log can be read, and no process is left.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <thread>
+
+#include "config/experiment.h"
+#include "logger/log_reader.h"
+#include "messaging/channels.h"
+#include "model/arm.h"
+#include "tests/system/fastball_run.h"
+
+namespace fastball::system_test {
+namespace {
+
+using messaging::LcmEndpoint;
+using testing::HasSubstr;
+
+const std::array<std::string, 6> kNames = {"planner",    "controller",     "hand_server",
+                                           "sim_bullet", "vision_tracker", "logger"};
+constexpr double kOverspeed =
+    1.1;  // times the limit, as config/experiment.yaml: controller.overspeed
+
+/// A phase of a throw, and the message that says that it has begun.
+struct Moment {
+  const char* name;
+  std::function<void(LcmEndpoint&, bool& reached)> subscribe;
+};
+template <class T, class Is>
+Moment moment(const char* name, const messaging::Channel<T>& channel, Is is) {
+  return {name, [channel, is](LcmEndpoint& endpoint, bool& reached) {
+            endpoint.subscribe<T>(channel,
+                                  [&reached, is](const T& m) { reached = reached || is(m); });
+          }};
+}
+
+const std::array<Moment, 6> kMoments = {
+    moment("planning", messaging::kPlanRequest, [](const plan_request_t&) { return true; }),
+    moment("settling", messaging::kArmState, [](const arm_state_t& m) { return m.tick >= 100; }),
+    moment("winding_up",
+           messaging::kControllerStatus,
+           [](const controller_status_t& m) { return m.phase == arm_command_t::SWING; }),
+    moment("releasing",
+           messaging::kRelease,
+           [](const release_t& m) { return m.event == release_t::COMMANDED; }),
+    moment("braking",
+           messaging::kControllerStatus,
+           [](const controller_status_t& m) { return m.phase == arm_command_t::FOLLOW_THROUGH; }),
+    moment("landed", messaging::kSimTruth, [](const sim_truth_t& m) {
+      return m.event == sim_truth_t::LANDED;
+    })};
+
+std::string programOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "fastball-" + name;
+}
+
+/// Every state that the log holds lies within the arm's limits. @return damaged places.
+int checkLog(const std::string& path) {
+  const config::Experiment experiment =
+      config::loadExperiment(FASTBALL_SOURCE_DIR "/config/experiment.yaml");
+  const model::Arm arm(experiment.arm, experiment.hand.payload);
+  return logger::readLog(path, [&](const logger::LogEntry& entry) {
+    arm_state_t state{};
+    if (entry.channel != messaging::kArmState.name || !entry.decode(state))
+      return;
+    const Eigen::Map<const Eigen::Vector4d> q(state.q);
+    EXPECT_TRUE((q.array() >= experiment.arm.q_min.array()).all()) << q.transpose();
+    EXPECT_TRUE((q.array() <= experiment.arm.q_max.array()).all()) << q.transpose();
+    EXPECT_LT(arm.speedRatio(Eigen::Map<const Eigen::Vector4d>(state.qd)), kOverspeed);
+  });
+}
+
+/// One run, one signal to one of its processes. `number` gives it a network of its own.
+void signalOne(const std::string& name,
+               int signal,
+               const Moment& moment,
+               const std::string& config,
+               int number) {
+  SCOPED_TRACE(fmt::format("{} {}, signal {}", name, moment.name, signal));
+  const int port = 40000 + static_cast<int>((getpid() * kNames.size() + number) % 20000);
+  FastballRun run({"run", "--throws", "100", "--config", config, "--lcm-url",
+                   fmt::format("udpm://239.255.76.67:{}?ttl=0", port)});
+  if (!run.await(moment.subscribe)) {
+    ADD_FAILURE() << "ended before: " << run.wait().output;
+    return;
+  }
+  const auto children = run.children();
+  ASSERT_EQ(children.size(), kNames.size());
+  kill(children.at(programOf(name)), signal);
+  const Outcome outcome = run.wait();
+  EXPECT_EQ(outcome.exit_status, 1);
+  const std::string sentence = name + (signal == SIGKILL ? " was ended by signal 9 (Killed)"
+                                                         : " has said no HEARTBEAT for ");
+  EXPECT_THAT(outcome.output, HasSubstr(sentence));
+  EXPECT_THAT(outcome.json.dump(), HasSubstr(sentence));
+  for (const auto& [program, pid] : children)
+    EXPECT_FALSE(isRunning(pid)) << program << " is left";
+  // Only the logger's own end can cut a record.
+  EXPECT_LE(checkLog(run.logPath()), name == "logger" ? 1 : 0);
+}
+
+/// One run for each process, at the same time: most of the time of each is waiting.
+void signalEach(int signal,
+                const std::function<const Moment&(std::size_t)>& moment,
+                const std::string& config) {
+  std::vector<std::thread> runs;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    runs.emplace_back(
+        [&, i] { signalOne(kNames[i], signal, moment(i), config, static_cast<int>(i)); });
+  }
+  for (std::thread& run : runs)
+    run.join();
+}
+
+class KilledProcess : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(KilledProcess, EndsTheRunAndIsNamed) {
+  signalEach(
+      SIGKILL, [](std::size_t) -> const Moment& { return kMoments[GetParam()]; },
+      FASTBALL_SOURCE_DIR "/config/experiment.yaml");
+}
+
+INSTANTIATE_TEST_SUITE_P(At,
+                         KilledProcess,
+                         testing::Range<std::size_t>(0, kMoments.size()),
+                         [](const auto& test) { return kMoments[test.param].name; });
+
+/// A stopped process is there and says nothing; the parameter turns the moments against the processes.
+class StoppedProcess : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(StoppedProcess, EndsTheRunAndIsNamed) {
+  const EditedConfig hasty("experiment.yaml", "answer_timeout: 30.0", "answer_timeout: 4.0");
+  signalEach(
+      SIGSTOP,
+      [](std::size_t i) -> const Moment& { return kMoments[(i + GetParam()) % kMoments.size()]; },
+      hasty.experiment());
+}
+
+INSTANTIATE_TEST_SUITE_P(Turned, StoppedProcess, testing::Values<std::size_t>(0, 3));
+
+}  // namespace
+}  // namespace fastball::system_test
