@@ -8,6 +8,7 @@
 #include "bench/row.h"
 #include "bench/run_rows.h"
 #include "bench/scene_rows.h"
+#include "bench/spy_rows.h"
 #include "bench/vision_rows.h"
 
 namespace fastball::bench {
@@ -16,8 +17,8 @@ std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
   for (const auto& some :
        {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), loggerBenchmarks(),
-        sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(), planBenchmarks(),
-        reachBenchmarks(), robustBenchmarks()}) {
+        spyBenchmarks(), sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
+        planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "launch/spy/traffic.h"
+
+namespace fastball::launch {
+
+/// A channel as one object of `fastball spy --json`: what is unknown is null. `now` [us since 1970].
+nlohmann::json toJson(const ChannelReport& report,
+                      const std::vector<messaging::MessageField>& fields,
+                      int64_t now);
+
+/// The channels as a table in printable ASCII: a heading and one line a channel, all equally long.
+struct TrafficTable {
+  std::string heading;
+  std::vector<std::string> lines;
+};
+TrafficTable trafficTable(const std::vector<ChannelReport>& reports);
+
+}  // namespace fastball::launch
