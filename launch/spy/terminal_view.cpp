@@ -59,16 +59,16 @@ int stepsOf(int key, int rows) {
   }
 }
 
-/// Screen text at a row; what does not fit is left out. `cells`: how many a text of ASCII may take.
-void put(int row, int column, const std::string& text, int cells) {
+/// ASCII text at a place of the screen; what does not fit is left out.
+void put(int row, int column, const std::string& text) {
   if (row >= 0 && row < LINES && column < COLS)
-    mvaddnstr(row, column, text.c_str(), std::min(cells, COLS - column));
+    mvaddnstr(row, column, text.c_str(), COLS - column);
 }
 
 void putLine(int row, std::string text, attr_t attributes) {
   text.resize(static_cast<std::size_t>(COLS), ' ');
   attron(static_cast<int>(attributes));
-  put(row, 0, text, COLS);
+  put(row, 0, text);
   attroff(static_cast<int>(attributes));
 }
 
@@ -109,7 +109,7 @@ struct TerminalView::State {
   }
 
   void drawChannels(const std::vector<ChannelReport>& reports, int64_t unlisted) const {
-    const TrafficTable table = trafficTable(reports);
+    const TrafficTable table = trafficTable(reports, static_cast<std::size_t>(COLS));
     putLine(1, table.heading, A_BOLD);
     const int count = static_cast<int>(table.lines.size());
     for (int row = 0; row < listRows() && channels.top + row < count; ++row) {
@@ -118,7 +118,7 @@ struct TerminalView::State {
               i == channels.chosen ? A_REVERSE : A_NORMAL);
     }
     if (reports.empty())
-      put(3, 2, "nothing heard yet", COLS);
+      put(3, 2, "nothing heard yet");
     std::string keys = "up, down, j, k: choose   Enter: members   q: quit";
     if (unlisted > 0)
       keys += fmt::format("   {} messages on further channels", unlisted);
@@ -126,12 +126,12 @@ struct TerminalView::State {
   }
 
   void drawMembers(const ChannelReport& report, const std::vector<FieldLine>& lines) {
-    const TrafficTable table = trafficTable({report});
+    const TrafficTable table = trafficTable({report}, static_cast<std::size_t>(COLS));
     putLine(1, table.lines.front(), A_BOLD);
     const int count = static_cast<int>(lines.size());
     members.scroll(listRows(), count);
     if (lines.empty())
-      put(3, 2, "no message of a known type; --types LIBRARY.so adds types", COLS);
+      put(3, 2, "no message of a known type; --types LIBRARY.so adds types");
     for (int row = 0; row < listRows() && members.top + row < count; ++row) {
       const int i = members.top + row;
       drawMember(2 + row, lines[static_cast<std::size_t>(i)], i == members.chosen);
@@ -176,8 +176,11 @@ struct TerminalView::State {
   void putPlot(int row, int column, const std::string& name, int rows) const {
     const auto width = static_cast<std::size_t>(std::max(COLS - column - 1, 0));
     for (const std::string& text :
-         plot(history.of(name), width, static_cast<std::size_t>(rows), style))
-      put(row++, column, text, static_cast<int>(text.size()));
+         plot(history.of(name), width, static_cast<std::size_t>(rows), style)) {
+      if (row >= 0 && row < LINES)
+        mvaddstr(row, column, text.c_str());
+      ++row;
+    }
   }
 
   /// `sample`: the plots go on by one.

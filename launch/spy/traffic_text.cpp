@@ -31,6 +31,11 @@ std::string ageWords(double age) {
   return age < 1 ? fmt::format("{:.0f} ms", kMilliseconds * age) : fmt::format("{:.1f} s", age);
 }
 
+/// The end of a name of a type tells most.
+std::string fitted(const std::string& text, std::size_t cells) {
+  return text.size() > cells ? text.substr(text.size() - cells) : text;
+}
+
 }  // namespace
 
 nlohmann::json toJson(const ChannelReport& report,
@@ -52,24 +57,29 @@ nlohmann::json toJson(const ChannelReport& report,
           {"fields", fieldsJson(fields)}};
 }
 
-TrafficTable trafficTable(const std::vector<ChannelReport>& reports) {
+TrafficTable trafficTable(const std::vector<ChannelReport>& reports, std::size_t max_width) {
   std::size_t width = 7;
   std::size_t type_width = 4;
   for (const ChannelReport& report : reports) {
     width = std::max(width, report.channel.size());
     type_width = std::max(type_width, report.type.size());
   }
+  // All but the two names, with the spaces between.
+  constexpr std::size_t kNumberCells = 70;
+  const std::size_t names = max_width - std::min(max_width, kNumberCells);
+  type_width = std::min(type_width, names - std::min(names, width));
   constexpr const char* kLayout = "{:{}}  {:{}} {:>9} {:>9} {:>11} {:>10} {:>8} {:>7} {:>7}";
   TrafficTable table;
-  table.heading = fmt::format(kLayout, "channel", width, "type", type_width, "messages", "Hz",
-                              "bandwidth", "jitter", "age", "lost", "undec.");
+  table.heading = fmt::format(kLayout, "channel", width, fitted("type", type_width), type_width,
+                              "messages", "Hz", "bandwidth", "jitter", "age", "lost", "undec.");
   for (const ChannelReport& report : reports) {
-    table.lines.push_back(fmt::format(
-        kLayout, printable(report.channel), width, printable(report.type), type_width, report.count,
-        fmt::format("{:.1f}", report.rate), bandwidthWords(report.bandwidth),
-        report.jitter ? fmt::format("{:.3f} ms", kMilliseconds * *report.jitter) : "-",
-        ageWords(report.age), report.lost ? std::to_string(*report.lost) : "-",
-        report.undecodable));
+    table.lines.push_back(
+        fmt::format(kLayout, printable(report.channel), width,
+                    fitted(printable(report.type), type_width), type_width, report.count,
+                    fmt::format("{:.1f}", report.rate), bandwidthWords(report.bandwidth),
+                    report.jitter ? fmt::format("{:.3f} ms", kMilliseconds * *report.jitter) : "-",
+                    ageWords(report.age), report.lost ? std::to_string(*report.lost) : "-",
+                    report.undecodable));
   }
   return table;
 }

@@ -329,6 +329,12 @@ TEST_F(TrafficTest, AllLinesOfTheTableAreEquallyLong) {
   ASSERT_EQ(table.lines.size(), 3U);
   for (const std::string& line : table.lines)
     EXPECT_EQ(line.size(), table.heading.size());
+  for (std::size_t width = table.heading.size() + 1; width > 95; --width) {
+    const TrafficTable narrow = trafficTable(traffic_.report(now_), width);
+    EXPECT_LE(narrow.heading.size(), width);
+    for (const std::string& line : narrow.lines)
+      EXPECT_EQ(line.size(), narrow.heading.size());
+  }
 }
 
 }  // namespace
