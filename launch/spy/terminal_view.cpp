@@ -23,8 +23,8 @@ constexpr int kPlotRows = 6;
 /// A window lower than this shows no plot below the members.
 constexpr int kPlotFromRows = 16;
 constexpr std::size_t kHistory = 512;
-constexpr std::size_t kNameCells = 36;
-constexpr std::size_t kWordCells = 44;
+constexpr std::size_t kNameCells = 28;
+constexpr std::size_t kWordCells = 26;
 
 /// Which line of a list is chosen, and which is the first to be seen.
 struct Choice {

@@ -64,7 +64,7 @@ bool Traffic::decodes(const MessageLayout& layout, const void* data, std::size_t
   return layout.bytes ? size == *layout.bytes : types_.fields(data, size).has_value();
 }
 
-/// Who sent it: where a channel has several senders, the words and process id that its message begins with tell them apart.
+/// Who sent it: where a channel has several senders, the process that a message names tells them apart.
 std::optional<std::string> Traffic::sender(const Channel& channel,
                                            const void* data,
                                            std::size_t size) const {
@@ -75,7 +75,7 @@ std::optional<std::string> Traffic::sender(const Channel& channel,
     return std::nullopt;
   std::optional<std::string> words;
   for (const messaging::MessageField& field : *fields) {
-    for (const char* name : {"name", "host", "pid", "channel"}) {
+    for (const char* name : {"name", "host", "pid"}) {
       if (field.name() == name && field.sizes().empty())
         words = words.value_or("") + field.text(0) + '\n';
     }
