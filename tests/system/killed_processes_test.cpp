@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "config/experiment.h"
 #include "logger/log_reader.h"
@@ -143,6 +145,48 @@ TEST_P(StoppedProcess, EndsTheRunAndIsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Turned, StoppedProcess, testing::Values<std::size_t>(0, 3));
+
+/// In real time nobody waits for a process that is stopped in the swing.
+class StoppedInRealTime : public testing::Test {
+ protected:
+  /// Stops the process in the swing, and listens until the run ends.
+  Outcome stop(const std::string& name) {
+    const EditedConfig hasty("experiment.yaml", "answer_timeout: 30.0", "answer_timeout: 4.0");
+    FastballRun run({"run", "--throws", "100", "--realtime", "--config", hasty.experiment()});
+    run.awaitSwing();
+    const auto children = run.children();
+    if (children.count(programOf(name)) == 1)
+      kill(children.at(programOf(name)), SIGSTOP);
+    run.await([&](LcmEndpoint& endpoint, bool&) {
+      endpoint.subscribe<arm_state_t>(messaging::kArmState,
+                                      [&](const arm_state_t& m) { state_ = m; });
+      endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat, [&](const heartbeat_t& m) {
+        details_.push_back(m.name + ": " + m.detail);
+      });
+    });
+    return run.wait();
+  }
+
+  arm_state_t state_{};  ///< the last
+  std::vector<std::string> details_;
+};
+
+TEST_F(StoppedInRealTime, WithoutItsControllerTheArmComesToRest) {
+  const Outcome outcome = stop("controller");
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("controller has said no HEARTBEAT for "));
+  EXPECT_THAT(details_, testing::Contains(HasSubstr("sim_bullet: braking: no ARM_COMMAND for more "
+                                                    "than 20 ms")));
+  ASSERT_GT(state_.tick, 0);
+  EXPECT_LT(Eigen::Map<const Eigen::Vector4d>(state_.qd).norm(), 0.05) << "[rad/s]";
+}
+
+TEST_F(StoppedInRealTime, WithoutItsRobotTheControllerBrakesAndSaysSo) {
+  const Outcome outcome = stop("sim_bullet");
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("sim_bullet has said no HEARTBEAT for "));
+  EXPECT_THAT(details_, testing::Contains(HasSubstr("controller: braked: no ARM_STATE came")));
+}
 
 }  // namespace
 }  // namespace fastball::system_test
