@@ -43,7 +43,7 @@ std::optional<ImageSize> imageSize(const Fields& fields, const Field& bytes) {
 
 nlohmann::json numberJson(const Field& field, std::size_t i) {
   if (field.kind() == Field::Kind::kBoolean)
-    return field.integer(0 + i) != 0;
+    return field.integer(i) != 0;
   if (!field.isReal())
     return field.integer(i);
   const double value = field.number(i);
@@ -101,11 +101,13 @@ FieldLine arrayLine(const Field& field) {
   if (field.isText())
     return {name, fmt::format("{} texts", field.count()), std::nullopt};
   const ArraySummary summary = summarise(field);
-  std::string words = fmt::format("n {}  min {:.6g}  mean {:.6g}  max {:.6g}", summary.count,
-                                  summary.min, summary.mean, summary.max);
+  const bool any = summary.count > summary.not_finite;
+  std::string words = fmt::format("n {}", summary.count);
+  if (any)
+    words += fmt::format("  min {:.6g}  mean {:.6g}  max {:.6g}", summary.min, summary.mean,
+                         summary.max);
   if (summary.not_finite > 0)
     words += fmt::format("  not finite {}", summary.not_finite);
-  const bool any = summary.count > summary.not_finite;
   return {name, words, any ? std::optional(summary.mean) : std::nullopt};
 }
 

@@ -95,7 +95,9 @@ TEST(Arrays, WithoutAFiniteValueHaveNone) {
     EXPECT_EQ(array.at("n"), values.size());
     EXPECT_TRUE(array.at("min").is_null() && array.at("mean").is_null() &&
                 array.at("max").is_null());
+    EXPECT_FALSE(Decoded(part(values)).line("values[]").number);
   }
+  EXPECT_EQ(Decoded(part({})).line("values[]").words, "n 0");
 }
 
 TEST(Arrays, OfTheLargestNumbersHaveAFiniteMean) {

@@ -113,6 +113,18 @@ TEST(Spy, PrintsATableWhereThereIsNoTerminal) {
   EXPECT_THAT(spy.output(), Not(HasSubstr("\x1b")));
 }
 
+TEST(Spy, DrawsOnATerminal) {
+  // `script` gives it one.
+  ChildProcess spy({"env", "TERM=xterm", "script", "-qec",
+                    std::string(kFastball) + " spy --rate 20 --duration 3", "/dev/null"});
+  Publisher publisher;
+  publisher.awaitListener(spy);
+  publisher.say("HEARTBEAT", messaging::examples::example<heartbeat_t>());
+  EXPECT_TRUE(spy.waitForOutput("HEARTBEAT")) << spy.output();
+  EXPECT_EQ(spy.wait(), 0);
+  EXPECT_THAT(spy.output(), HasSubstr("\x1b["));
+}
+
 TEST(Spy, RefusesWhatCannotBeInOneSentence) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{"--channel", "*"}, "cannot subscribe to *"},
