@@ -87,10 +87,14 @@ std::string ExperimentNode::waitingFor() const {
       return "THROW_START was not taken by " + withoutOrder();
     case Phase::kStarting:
       return "sim_bullet did not answer SCENE";
-    default:
+    default: {
+      const heartbeat_t* robot = roster_.newest("sim_bullet");
+      const bool speaks = robot != nullptr && !robot->detail.empty();
       return fmt::format(
-          "the scene stopped at {:.3f} s",
-          static_cast<double>(status_.utime - sceneUtime(settings_, number_)) / kMicro);
+          "the scene stopped at {:.3f} s{}",
+          static_cast<double>(status_.utime - sceneUtime(settings_, number_)) / kMicro,
+          speaks ? " (sim_bullet: " + robot->detail + ")" : "");
+    }
   }
 }
 

@@ -88,23 +88,35 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
       next_scene_ = m;
   });
   // A command answers the tick that was said last; in real time it may answer any tick since the one before it.
-  endpoint.subscribe<arm_command_t>(messaging::kArmCommand,
-                                    [this](const arm_command_t& m) { take(m, &arm_command_); });
-  endpoint.subscribe<hand_command_t>(messaging::kHandCommand,
-                                     [this](const hand_command_t& m) { take(m, &hand_command_); });
+  endpoint.subscribe<arm_command_t>(messaging::kArmCommand, [this](const arm_command_t& m) {
+    take(m, arm_watch_, &arm_command_);
+  });
+  endpoint.subscribe<hand_command_t>(messaging::kHandCommand, [this](const hand_command_t& m) {
+    take(m, hand_watch_, &hand_command_);
+  });
 }
 
 template <class Command>
-void SimNode::take(const Command& message, std::optional<Command>* newest) {
+void SimNode::take(const Command& message, CommandWatch& watch, std::optional<Command>* newest) {
+  const bool one_sender = watch.accepts(message);
   const bool this_scene = running() && message.scene_id == message_.scene_id;
   const int64_t tick = this_scene ? scene_->tick() : 0;
   const bool fits = setup_.realtime
                         ? message.tick <= tick && (!*newest || message.tick > (*newest)->tick)
                         : message.tick == tick;
-  if (this_scene && fits)
+  if (one_sender && this_scene && fits)
     *newest = message;
   else
     ++stray_commands_;
+}
+
+messaging::NodeState SimNode::state() const {
+  messaging::NodeState state = state_;
+  for (const CommandWatch* watch : {&arm_watch_, &hand_watch_}) {
+    const bool both = !state.detail.empty() && !watch->sentence().empty();
+    state.detail += (both ? "; " : "") + watch->sentence();
+  }
+  return state;
 }
 
 void SimNode::step() {
@@ -140,6 +152,8 @@ void SimNode::begin(const scene_t& message) {
   message_ = message;
   arm_command_.reset();
   hand_command_.reset();
+  arm_watch_.beginScene(message.scene_id);
+  hand_watch_.beginScene(message.scene_id);
   stray_commands_ = 0;
   braking_ = false;
   try {
@@ -249,6 +263,8 @@ void SimNode::sayStates() {
   hand_state_t hand = handState(stamp(), scene_->state());
   arm_states_.publish(arm);
   hand_states_.publish(hand);
+  arm_watch_.stateSaid(scene_->tick());
+  hand_watch_.stateSaid(scene_->tick());
   said_us_ = clock_.monotonicUs();
 }
 

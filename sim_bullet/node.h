@@ -10,6 +10,7 @@
 #include "messaging/node.h"
 #include "messaging/process.h"
 #include "sim_bullet/camera_rig.h"
+#include "sim_bullet/command_watch.h"
 #include "sim_bullet/scene.h"
 #include "sim_bullet/scene_messages.h"
 
@@ -31,7 +32,8 @@ SimulatorSetup loadSetup(const messaging::ProcessOptions& options);
 /// images, CAMERA_INFO and SIM_TRUTH out.
 ///
 /// Lockstep: says the state of a tick and advances when it has both commands that name this scene and tick; says the state
-/// again when one is 20 ms late, because UDP loses packets. Commands for anything else are left alone and counted.
+/// again when one is 20 ms late, because UDP loses packets. Commands for anything else are left alone and counted, and
+/// those of a second sender are said in the HEARTBEAT.
 /// Real time: advances with the wall clock; the newest commands hold, and an arm command older than the watchdog brakes.
 ///
 /// Its HEARTBEAT state is idle (no scene yet), running, finished (plan_id: the scene that has ended) or failed.
@@ -44,16 +46,18 @@ class SimNode : public messaging::Node {
   std::string name() const override { return "sim_bullet"; }
   void step() override;
   int64_t wakeUs() const override;
-  messaging::NodeState state() const override { return state_; }
+  messaging::NodeState state() const override;
 
   /// Commands that named another scene or tick than the one waited for.
   int64_t strayCommands() const { return stray_commands_; }
+  /// Those of them that a second sender must have sent.
+  int64_t refusedCommands() const { return arm_watch_.refused() + hand_watch_.refused(); }
   /// The scene that runs, or null.
   const Scene* scene() const { return scene_.get(); }
 
  private:
   template <class Command>
-  void take(const Command& message, std::optional<Command>* newest);
+  void take(const Command& message, CommandWatch& watch, std::optional<Command>* newest);
   void begin(const scene_t& message);
   void beginImages();
   void stepLockstep();
@@ -86,6 +90,8 @@ class SimNode : public messaging::Node {
   std::optional<scene_t> next_scene_;
   std::optional<arm_command_t> arm_command_;
   std::optional<hand_command_t> hand_command_;
+  CommandWatch arm_watch_{messaging::kArmCommand.name};
+  CommandWatch hand_watch_{messaging::kHandCommand.name};
   scene_t message_{};  ///< of the scene
   std::unique_ptr<Scene> scene_;
   int64_t last_tick_ = 0;

@@ -129,6 +129,60 @@ TEST_F(Simulator, LeavesCommandsForOtherTicksAndScenesAlone) {
   EXPECT_EQ(node_.strayCommands(), 4);
 }
 
+TEST_F(Simulator, NamesACommandBeforeTheFirstScene) {
+  arm_command_t command{};
+  command.scene_id = 3;
+  peers_.sendArm(command);
+  settle();
+  EXPECT_EQ(node_.state().detail,
+            "refused 1 ARM_COMMAND of a second sender; the first answers scene 3 before any has "
+            "begun");
+  peers_.sendScene(sceneMessage(1, 0.05));
+  settle();
+  EXPECT_EQ(node_.state().state, "finished");
+  EXPECT_EQ(node_.refusedCommands(), 0);
+}
+
+TEST_F(Simulator, ASecondControllerIsRefusedAndNamedAndMovesNothing) {
+  peers_.sendScene(sceneMessage(1, 0.05));
+  settle();
+  EXPECT_EQ(node_.refusedCommands(), 0);
+  const arm_state_t alone = peers_.arm_states.back();
+
+  ScriptedPeers second(network_.addEndpoint());
+  second.answers_hand = false;
+  second.push = 5;
+  peers_.sendScene(sceneMessage(2, 0.05));
+  settle();
+  EXPECT_EQ(peers_.tick(), alone.tick);
+  EXPECT_EQ(std::memcmp(peers_.arm_states.back().q, alone.q, sizeof(alone.q)), 0);
+  EXPECT_GE(node_.refusedCommands(), 32);
+  EXPECT_THAT(node_.state().detail,
+              HasSubstr("refused 32 ARM_COMMANDs of a second sender; the first differs from the "
+                        "one before about tick 0"));
+}
+
+TEST_F(Simulator, AControllerOfAnEarlierRunDoesNotTakeTheArmOver) {
+  ScriptedPeers earlier(network_.addEndpoint());
+  earlier.answers_arm = earlier.answers_hand = false;
+  for (int i = 0; i < 100; ++i)
+    earlier.sendArm({});
+  peers_.sendScene(sceneMessage(1, 0.05));
+  ASSERT_TRUE(runTo(10));
+  peers_.answers_arm = false;
+  settle();
+  const int64_t tick = peers_.tick();
+  earlier.sendArm(earlier.armCommand(peers_.arm_states.back()));
+  settle();
+  EXPECT_EQ(peers_.tick(), tick);
+  EXPECT_EQ(node_.refusedCommands(), 1);
+  EXPECT_THAT(node_.state().detail, HasSubstr("has seq 100 after "));
+  peers_.answers_arm = true;
+  clock_.advanceUs(20'000);
+  settle();
+  EXPECT_EQ(node_.state().state, "finished");
+}
+
 TEST_F(Simulator, RunsASceneToItsEnd) {
   peers_.sendScene(sceneMessage(1, 0.2));
   peers_.sendScene(sceneMessage(1, 0.2));  // a repetition
@@ -172,6 +226,7 @@ TEST_F(Simulator, LostAndRepeatedMessagesDoNotChangeTheThrow) {
   }
   settle();
   const arm_state_t battered = peers_.arm_states.back();
+  EXPECT_EQ(node_.refusedCommands(), 0);
   EXPECT_EQ(battered.tick, clean.tick);
   EXPECT_EQ(std::memcmp(battered.q, clean.q, sizeof(clean.q)), 0);
   EXPECT_EQ(std::memcmp(battered.qd, clean.qd, sizeof(clean.qd)), 0);
@@ -268,6 +323,18 @@ TEST_F(RealtimeSimulator, BrakesWhenCommandsStopComing) {
   peers_.push = 0;
   runMilliseconds(3);
   EXPECT_EQ(node_.state().detail, "");
+}
+
+TEST_F(RealtimeSimulator, ARestartedControllerDoesNotGetTheArmInMidScene) {
+  peers_.sendScene(sceneMessage(1, 0.5));
+  settle();
+  runMilliseconds(100);
+  peers_.answers_arm = false;
+  ScriptedPeers restarted(network_.addEndpoint());
+  restarted.answers_hand = false;
+  runMilliseconds(30);
+  EXPECT_THAT(node_.state().detail, HasSubstr("braking"));
+  EXPECT_THAT(node_.state().detail, HasSubstr("has seq 0 at tick "));
 }
 
 TEST_F(RealtimeSimulator, BrakesUntilTheFirstCommand) {
