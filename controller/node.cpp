@@ -62,9 +62,13 @@ class ControllerNode : public messaging::Node {
     if (is_new_)
       answerNewest();
     if (clock_.monotonicUs() >= wakeUs()) {
-      controller_.stop("braked: no ARM_STATE came for too long");
+      silent_ = true;
+      controller_.stop(
+          fmt::format("braked: no ARM_STATE for more than {} ms", stale_limit_us_ / 1000));
       sayStatus();
     }
+    if (silent_ && !controller_.stopped())
+      silent_ = back_ = false;  // another scene
   }
 
   int64_t wakeUs() const override {
@@ -74,7 +78,7 @@ class ControllerNode : public messaging::Node {
   }
 
   messaging::NodeState state() const override {
-    return {word(), controller_.notice(), controller_.planId()};
+    return {word(), controller_.notice() + (back_ ? "; it comes again" : ""), controller_.planId()};
   }
 
  private:
@@ -106,6 +110,7 @@ class ControllerNode : public messaging::Node {
   void answerNewest() {
     is_new_ = false;
     heard_us_ = clock_.monotonicUs();
+    back_ = silent_;
     const Phase phase_before = controller_.phase();
     const ArmSample sample{newest_.utime, newest_.scene_id, newest_.tick,
                            Eigen::Map<const Eigen::Vector4d>(newest_.q),
@@ -152,6 +157,8 @@ class ControllerNode : public messaging::Node {
   arm_state_t newest_{};
   bool is_new_ = false;
   int64_t heard_us_ = 0;
+  bool silent_ = false;  ///< stopped because it was not heard
+  bool back_ = false;    ///< it was heard again since
   arm_command_t command_{};
   controller_status_t status_{};
   int64_t status_slot_ = -1;

@@ -23,6 +23,7 @@ HandServerConfig loadConfig(const std::string& path) {
   result.quiet_time = section.number("quiet_time", {0.002, 0.025});
   result.grip_share = section.number("grip_share", {0, 1});
   result.arm_bound = section.number("arm_bound", config::kPositive);
+  result.stale_limit = section.number("stale_limit", {0.002, 1.0});
   section.finish();
   return result;
 }

@@ -25,10 +25,11 @@ struct HandServerConfig {
   double force_noise = 0;      ///< [N], standard deviation of the fingertips' force sensors
   double force_delay = 0;      ///< [s], from a force to its reading
   double command_shift_max =
-      0;                  ///< [s], most by which a command comes earlier or later than planned
-  double quiet_time = 0;  ///< [s] without touch after which the ball has left
-  double grip_share = 0;  ///< of the planned grip that the thumb must feel before the swing
-  double arm_bound = 0;   ///< [rad], the ball is kept if the arm is further from the plan
+      0;                   ///< [s], most by which a command comes earlier or later than planned
+  double quiet_time = 0;   ///< [s] without touch after which the ball has left
+  double grip_share = 0;   ///< of the planned grip that the thumb must feel before the swing
+  double arm_bound = 0;    ///< [rad], the ball is kept if the arm is further from the plan
+  double stale_limit = 0;  ///< [s], real time: the ball is kept if the robot is silent for longer
 };
 
 /// Reads the section `hand_server` of the experiment file at `path`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -33,10 +34,13 @@ HandPlan fromMessage(const swing_plan_t& message) {
 class HandServerNode : public messaging::Node {
  public:
   HandServerNode(messaging::Endpoint& endpoint,
+                 const messaging::Clock& clock,
                  const config::Experiment& experiment,
                  const HandServerConfig& config,
                  bool realtime)
-      : realtime_(realtime),
+      : clock_(clock),
+        realtime_(realtime),
+        stale_limit_us_(std::llround(config.stale_limit * 1e6)),
         controller_(model::Arm(experiment.arm, experiment.hand.payload),
                     model::Hand(experiment.hand),
                     experiment.ball,
@@ -52,6 +56,7 @@ class HandServerNode : public messaging::Node {
       controller_.keep("kept the ball: ESTOP: " + m.reason);
     });
     endpoint.subscribe<arm_state_t>(messaging::kArmState, [this](const arm_state_t& m) {
+      arm_heard_us_ = clock_.monotonicUs();
       controller_.watchArm(m.scene_id, m.utime, Eigen::Map<const Eigen::Vector4d>(m.q));
     });
     endpoint.subscribe<hand_state_t>(messaging::kHandState, [this](const hand_state_t& m) {
@@ -68,10 +73,24 @@ class HandServerNode : public messaging::Node {
   void step() override {
     if (is_new_)
       answerNewest();
+    if (silent_ && clock_.monotonicUs() < staleUs())
+      back_ = true;
+    if (clock_.monotonicUs() >= wakeUs()) {
+      silent_ = true;
+      controller_.keep(fmt::format("kept the ball: no {} for more than {} ms",
+                                   arm_heard_us_ < heard_us_ ? "ARM_STATE" : "HAND_STATE",
+                                   stale_limit_us_ / 1000));
+    }
+    if (silent_ && !controller_.kept())
+      silent_ = back_ = false;  // another scene
+  }
+
+  int64_t wakeUs() const override {
+    return realtime_ && controller_.running() ? staleUs() : INT64_MAX;
   }
 
   messaging::NodeState state() const override {
-    return {word(), controller_.notice(), controller_.planId()};
+    return {word(), controller_.notice() + (back_ ? "; it comes again" : ""), controller_.planId()};
   }
 
  private:
@@ -89,6 +108,9 @@ class HandServerNode : public messaging::Node {
     return controller_.kept() ? "holding" : "idle";
   }
 
+  /// When the older of the newest states will be too old.
+  int64_t staleUs() const { return std::min(arm_heard_us_, heard_us_) + stale_limit_us_; }
+
   void takePlan(const swing_plan_t& message) {
     if (message.status != swing_plan_t::OK)
       return;
@@ -102,6 +124,7 @@ class HandServerNode : public messaging::Node {
 
   void answerNewest() {
     is_new_ = false;
+    heard_us_ = clock_.monotonicUs();
     HandSample sample{newest_.utime, newest_.scene_id, newest_.tick,
                       Eigen::Map<const model::HandVector>(newest_.q),
                       Eigen::Map<const model::HandVector>(newest_.qd)};
@@ -145,7 +168,13 @@ class HandServerNode : public messaging::Node {
     releases_.publish(message);
   }
 
+  const messaging::Clock& clock_;
   bool realtime_;
+  int64_t stale_limit_us_;
+  int64_t heard_us_ = 0;      ///< monotonic, HAND_STATE
+  int64_t arm_heard_us_ = 0;  ///< monotonic, ARM_STATE
+  bool silent_ = false;       ///< the ball is kept because one of them was not heard
+  bool back_ = false;         ///< both were heard again since
   HandController controller_;
   messaging::Publisher<hand_command_t> commands_;
   messaging::Publisher<release_t> releases_;
@@ -157,11 +186,11 @@ class HandServerNode : public messaging::Node {
 }  // namespace
 
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
-                                          const messaging::Clock& /*clock*/,
+                                          const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options) {
   const std::string path = config::experimentPath(options.config);
-  return std::make_unique<HandServerNode>(endpoint, config::loadExperiment(path), loadConfig(path),
-                                          options.realtime);
+  return std::make_unique<HandServerNode>(endpoint, clock, config::loadExperiment(path),
+                                          loadConfig(path), options.realtime);
 }
 
 }  // namespace fastball::hand_server

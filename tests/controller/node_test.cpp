@@ -145,7 +145,13 @@ TEST_F(ControllerNodeInRealTime, SilenceOfTheArmInASwingBrakes) {
   clock_.advanceUs(25'000);
   settle();
   EXPECT_EQ(heard(), "braked");
-  EXPECT_THAT(statuses_.back().message, HasSubstr("no ARM_STATE"));
+  EXPECT_EQ(statuses_.back().message, "braked: no ARM_STATE for more than 20 ms");
+  EXPECT_EQ(heartbeats_.back().detail, "braked: no ARM_STATE for more than 20 ms");
+  say(messaging::kArmState, stateMessage(1, 30, kBack, Eigen::Vector4d::Zero()));
+  EXPECT_EQ(commands_.back().phase, int{arm_command_t::BRAKE});
+  EXPECT_EQ(heartbeats_.back().detail, "braked: no ARM_STATE for more than 20 ms; it comes again");
+  say(messaging::kArmState, stateMessage(2, 0, kBack, Eigen::Vector4d::Zero()));
+  EXPECT_EQ(heartbeats_.back().detail, "");
 }
 
 }  // namespace

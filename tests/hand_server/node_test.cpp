@@ -147,5 +147,47 @@ TEST_F(HandServerNodeInRealTime, OnlyTheNewestStateIsAnswered) {
   EXPECT_EQ(commands_[0].tick, 4);
 }
 
+/// The parameter: who goes silent.
+class SilentRobot : public HandServerNodeInRealTime, public testing::WithParamInterface<bool> {
+ protected:
+  void both(int64_t i, bool arm, bool hand) {
+    arm_state_t state{};
+    state.scene_id = 1;
+    state.tick = i;
+    state.utime = 1000 * i;
+    const Eigen::Vector4d q = throwPlan().arm.at(1e-6 * static_cast<double>(state.utime) - 0.3).q;
+    std::copy_n(q.data(), 4, state.q);
+    if (arm)
+      say(messaging::kArmState, state);
+    if (hand)
+      tick(i, 2.0);
+    clock_.advanceUs(1000);
+  }
+};
+
+TEST_P(SilentRobot, KeepsTheBallAndSaysSoAndThatItIsBack) {
+  const bool arm_is_silent = GetParam();
+  arm();
+  for (int i = 0; i < 500; ++i)
+    both(i, true, true);
+  ASSERT_EQ(heartbeat_.state, "running");
+  for (int i = 500; i < 525; ++i)
+    both(i, !arm_is_silent, arm_is_silent);
+  const std::string sentence = std::string("kept the ball: no ") +
+                               (arm_is_silent ? "ARM_STATE" : "HAND_STATE") +
+                               " for more than 20 ms";
+  EXPECT_EQ(heartbeat_.state, "holding");
+  EXPECT_EQ(heartbeat_.detail, sentence);
+  for (int i = 525; i < 900; ++i)
+    both(i, true, true);
+  EXPECT_EQ(heartbeat_.detail, sentence + "; it comes again");
+  EXPECT_EQ(commands_.back().phase, int{hand_command_t::HOLD});
+  EXPECT_TRUE(releases_.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEither, SilentRobot, testing::Bool(), [](const auto& test) {
+  return test.param ? "arm" : "hand";
+});
+
 }  // namespace
 }  // namespace fastball::hand_server
