@@ -135,6 +135,18 @@ INSTANTIATE_TEST_SUITE_P(OfEachPeer,
                                                  "sim_bullet did not answer SCENE"}),
                          [](const auto& test) { return test.param.who; });
 
+TEST_F(ExperimentNodeTest, AThrowThatStopsIsNamedWithWhatTheRobotSaysOfIt) {
+  peers.plays = false;
+  EXPECT_FALSE(flow());
+  peers.sim_bullet.own_state = {"running", "refused 1 ARM_COMMAND of a second sender", 1};
+  EXPECT_FALSE(flow());
+  EXPECT_EQ(experiment.phase(), Phase::kThrowing);
+  wait(30.1);
+  EXPECT_TRUE(flow());
+  EXPECT_THAT(experiment.error(), HasSubstr("the scene stopped at "));
+  EXPECT_THAT(experiment.error(), HasSubstr("(sim_bullet: refused 1 ARM_COMMAND"));
+}
+
 TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
   peers.measures = false;
   EXPECT_FALSE(flow());
