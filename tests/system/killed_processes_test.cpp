@@ -185,7 +185,8 @@ TEST_F(StoppedInRealTime, WithoutItsRobotTheControllerBrakesAndSaysSo) {
   const Outcome outcome = stop("sim_bullet");
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("sim_bullet has said no HEARTBEAT for "));
-  EXPECT_THAT(details_, testing::Contains(HasSubstr("controller: braked: no ARM_STATE for more than 20 ms")));
+  EXPECT_THAT(details_,
+              testing::Contains(HasSubstr("controller: braked: no ARM_STATE for more than 20 ms")));
 }
 
 }  // namespace
