@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -28,7 +29,8 @@ class Calibration : public ::testing::Test {
     }
     return "accepted";
   }
-  std::string path_ = ::testing::TempDir() + "calibration_test.yaml";
+  std::string path_ =
+      ::testing::TempDir() + "calibration_test_" + std::to_string(getpid()) + ".yaml";
   std::string sound_ =
       "image_width: 640\nimage_height: 480\ncamera_matrix: [900, 0, 320, 0, 901, 240, 0, 0, 1]\n"
       "distortion_coefficients: [-0.1, 0.02, 0.001, 0.002]\n";

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -123,7 +124,7 @@ class VisionCommands : public ::testing::Test {
     }
     return path;
   }
-  std::string folder_ = ::testing::TempDir() + "vision_commands_test";
+  std::string folder_ = ::testing::TempDir() + "vision_commands_test_" + std::to_string(getpid());
 };
 
 TEST_F(VisionCommands, TrackWritesTableAndPicture) {

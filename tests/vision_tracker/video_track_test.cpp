@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -29,7 +30,7 @@ class Videos : public ::testing::Test {
       std::remove(path.c_str());
   }
   std::string newPath(const std::string& name) {
-    paths_.push_back(::testing::TempDir() + "video_track_test_" + name);
+    paths_.push_back(::testing::TempDir() + "video_track_test_" + std::to_string(getpid()) + name);
     return paths_.back();
   }
   std::string write(const std::string& name, double rate, const std::vector<cv::Mat>& frames) {
