@@ -12,7 +12,9 @@ constexpr int kMostMisses = 3;  // images in a row without the ball, before its 
 constexpr std::size_t kLeastSightings = 4;
 constexpr double kLeastWay = 4;     // radii, of a path from end to end
 constexpr double kFirstReach = 14;  // radii between a path's first two sightings
-constexpr double kReach = 3;        // radii about the predicted place
+constexpr double kSizeRatio =
+    1.6;  // between the longest path's ball and that of another of the same ball
+constexpr double kReach = 3;  // radii about the predicted place
 
 /// A camera so far away that a ball is a circle wherever it is in the image. The ball has a radius of 1.
 model::Camera distantCamera(const cv::Size& size) {
@@ -34,6 +36,16 @@ DetectorOptions detectorOptions(const model::Camera& camera, const PixelTrackerO
   detector.noise_floor = 0.05;
   detector.keep_uneven = true;
   return detector;
+}
+
+/// [px], the radius in the middle of a path's.
+double usualRadius(const std::vector<PixelSighting>& sightings) {
+  std::vector<double> radii;
+  for (const PixelSighting& s : sightings)
+    radii.push_back(s.fit.radius);
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 double extent(const std::vector<PixelSighting>& sightings) {
@@ -128,13 +140,24 @@ std::vector<PixelSighting> PixelTracker::track() const {
   std::stable_sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) {
     return a.sightings.size() > b.sightings.size();
   });
+  const double radius = paths.empty() ? 0 : usualRadius(paths.front().sightings);
+  const auto another = [radius](const Path& path) {
+    const double ratio = usualRadius(path.sightings) / radius;
+    return ratio > kSizeRatio || ratio < 1 / kSizeRatio;
+  };
+  paths.erase(std::remove_if(paths.begin(), paths.end(), another), paths.end());
   std::vector<PixelSighting> track;
   std::vector<bool> seen(static_cast<std::size_t>(frame_), false);
   for (const Path& path : paths) {
+    std::vector<PixelSighting> fresh;
     for (const PixelSighting& s : path.sightings) {
       if (!seen[static_cast<std::size_t>(s.frame)])
-        track.push_back(s);
+        fresh.push_back(s);
     }
+    // What little of a path is not beside a longer one is no path.
+    if (fresh.size() < kLeastSightings)
+      continue;
+    track.insert(track.end(), fresh.begin(), fresh.end());
     for (int f = path.sightings.front().frame; f <= path.sightings.back().frame; ++f)
       seen[static_cast<std::size_t>(f)] = true;
   }

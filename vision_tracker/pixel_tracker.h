@@ -33,7 +33,8 @@ class PixelTracker {
   void add(const cv::Mat& image, double time);
 
   /// The ball's paths in order of time, at most one sighting an image: where several things moved at a time, the one with the longer
-  /// path is the ball. Paths of fewer than four sightings, or of less than two diameters from end to end, are none.
+  /// path is the ball. Paths of fewer than four sightings, or of less than two diameters from end to end, are none;
+  /// nor are those of things of quite another size than the longest path's.
   std::vector<PixelSighting> track() const;
 
  private:
