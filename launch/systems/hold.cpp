@@ -105,10 +105,10 @@ bool running(bp::child& child) {
 std::string findProgram(const std::string& word) {
   if (word.find('/') != std::string::npos)
     return word;
-  const std::string beside = programFolder() + "/" + word;
+  std::string beside = programFolder() + "/" + word;
   if (access(beside.c_str(), X_OK) == 0)
     return beside;
-  const std::string found = bp::search_path(word).string();
+  std::string found = bp::search_path(word).string();
   if (found.empty())
     throw std::runtime_error(fmt::format(
         "cannot find the program {}, neither in {} nor on the PATH", word, programFolder()));
