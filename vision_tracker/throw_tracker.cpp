@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
-#include "vision_tracker/ring_measurement.h"
 #include "vision_tracker/ring_landing.h"
+#include "vision_tracker/ring_measurement.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
