@@ -221,7 +221,9 @@ Findings checkOthers(const std::string& lcm_url) {
     findings.push_back({"heard", Verdict::kGood, "nobody else on " + endpoint.url(), ""});
   for (const auto& [host, offset] : clocks) {
     Finding clock{"clock of " + host, Verdict::kGood,
-                  fmt::format("{:.1f} ms from ours at most", std::abs(offset) * 1e3), ""};
+                  fmt::format("{:.1f} ms from ours, to the time that a message takes",
+                              std::abs(offset) * 1e3),
+                  ""};
     if (std::abs(offset) > kClockOff) {
       clock.verdict = Verdict::kBad;
       clock.value += fmt::format(", {} ms are allowed", kClockOff * 1e3);

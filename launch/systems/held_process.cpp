@@ -1,5 +1,6 @@
 #include "launch/systems/held_process.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
@@ -73,6 +74,7 @@ std::vector<std::string> holdCommand(const SystemProcess& process, const std::st
 
 HeldProcess::HeldProcess(boost::asio::io_context& context,
                          const std::vector<std::string>& command,
+                         bool over_ssh,
                          const std::string& output_path,
                          OnLine on_line)
     : input_(context),
@@ -80,7 +82,7 @@ HeldProcess::HeldProcess(boost::asio::io_context& context,
       buffer_(kLongestLine),
       file_(output_path, std::ios::app),
       on_line_(std::move(on_line)),
-      over_ssh_(command.front().find("ssh") != std::string::npos) {
+      over_ssh_(over_ssh) {
   const pid_t self = getpid();
   // The holder sees its input end in any case; this is for a program in ssh's place that does not look.
   const auto prepare = [self](auto& /*executor*/) { prepareChild(self, SIGTERM); };
@@ -97,6 +99,7 @@ HeldProcess::HeldProcess(boost::asio::io_context& context,
   } catch (const bp::process_error& e) {
     throw std::runtime_error(fmt::format("cannot start {}: {}", path.string(), e.code().message()));
   }
+  fcntl(input_.native_sink(), F_SETFL, O_NONBLOCK);
   readLine();
 }
 
@@ -129,7 +132,7 @@ void HeldProcess::readLine() {
 }
 
 void HeldProcess::sayAlive() {
-  // Blocking is no danger: a pipe holds a day of these, and who reads none of them is ended by then.
+  // A holder that reads nothing, a stopped one, must not stop its launcher: what the full pipe does not take is left out.
   const char alive = '\n';
   [[maybe_unused]] const ssize_t written = ::write(input_.native_sink(), &alive, 1);
 }

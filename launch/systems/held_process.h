@@ -28,9 +28,11 @@ std::string shellQuoted(const std::string& word);
 class HeldProcess {
  public:
   using OnLine = std::function<void(const std::string& line)>;
+  /// @param over_ssh so that ssh's own failure is told from the program's
   /// @throw std::runtime_error if it cannot be started.
   HeldProcess(boost::asio::io_context& context,
               const std::vector<std::string>& command,
+              bool over_ssh,
               const std::string& output_path,
               OnLine on_line);
   ~HeldProcess();

@@ -13,6 +13,7 @@
 #include <functional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "launch/systems/supervisor.h"
 #include "messaging/stop_signals.h"
@@ -30,6 +31,8 @@ void printLine(const std::string& line) {
 void supervise(const System& system, StateFolder& folder, const std::function<void()>& ready) {
   if (!folder.lock())
     throw std::runtime_error(fmt::format("{} is up already; see 'fastball ps'", system.path));
+  // A process that has just ended leaves a pipe without a reader.
+  std::signal(SIGPIPE, SIG_IGN);
   Supervisor(system, folder, {ready, printLine}).run();
 }
 
@@ -68,7 +71,7 @@ std::string awaitAnswer(int answer, pid_t launcher, const messaging::StopSignals
   dup2(log, STDERR_FILENO);
   int status = 0;
   try {
-    supervise(system, folder, [answer] { close(answer); });
+    supervise(system, folder, [&answer] { close(std::exchange(answer, -1)); });
   } catch (const std::exception& e) {
     const std::string sentence = e.what();
     // After it was ready nobody listens here any more.
@@ -97,7 +100,6 @@ void superviseBehind(const System& system, StateFolder& folder) {
   if (launcher < 0)
     throw std::runtime_error("cannot start the launcher");
   if (launcher == 0) {
-    std::signal(SIGPIPE, SIG_IGN);
     close(answer[0]);
     launcherMain(system, folder, answer[1]);
   }

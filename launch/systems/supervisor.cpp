@@ -92,7 +92,8 @@ void Supervisor::start(Member& member) {
   }
   try {
     member.held = std::make_unique<HeldProcess>(
-        context_, holdCommand(member.process, system_.lcm_url), folder_.outputPath(name),
+        context_, holdCommand(member.process, system_.lcm_url), !member.process.host.isHere(),
+        folder_.outputPath(name),
         [this, name](const std::string& line) { say(fmt::format("[{}] {}", name, line)); });
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("{}: {}", name, e.what()));

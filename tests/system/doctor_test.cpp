@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include "tests/config/temporary_folder.h"
@@ -32,8 +33,8 @@ TEST(Doctor, LooksAtEverythingAndItsStatusSaysWhetherSomethingIsBad) {
 }
 
 TEST(Doctor, SaysHowToMakeARouteWhereThereIsNone) {
-  if (fastball({"--version"}, {"unshare", "-n"}).exit_status != 0)
-    GTEST_SKIP() << "this machine forbids private networks";
+  if (std::system("unshare -n true 2>/dev/null") != 0)
+    GTEST_SKIP() << "no private network namespace to be had here";
   const Outcome outcome = fastball({"doctor"}, {"unshare", "-n"});
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("mend: sudo ip route add 239.255.76.67/32 dev lo"));
