@@ -71,6 +71,11 @@ class ControllerNode : public messaging::Node {
       silent_ = back_ = false;  // another scene
   }
 
+  void onSilence(const std::vector<std::string>& names, const std::string& sentence) override {
+    if (std::find(names.begin(), names.end(), "experiment") != names.end())
+      controller_.stop("braked: " + sentence);
+  }
+
   int64_t wakeUs() const override {
     return realtime_ && controller_.running() && !controller_.stopped()
                ? heard_us_ + stale_limit_us_

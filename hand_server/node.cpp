@@ -85,6 +85,11 @@ class HandServerNode : public messaging::Node {
       silent_ = back_ = false;  // another scene
   }
 
+  void onSilence(const std::vector<std::string>& names, const std::string& sentence) override {
+    if (std::find(names.begin(), names.end(), "experiment") != names.end())
+      controller_.keep("kept the ball: " + sentence);
+  }
+
   int64_t wakeUs() const override {
     return realtime_ && controller_.running() ? staleUs() : INT64_MAX;
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "launch/verdicts.h"
 #include "messaging/heartbeat.h"
 #include "messaging/lcm_endpoint.h"
+#include "messaging/peer_watch.h"
 #include "messaging/stop_signals.h"
 #include "messaging/validation.h"
 
@@ -31,6 +33,12 @@ constexpr double kInterruptedGrace = 0.9;  // [s], twice: an interrupted run is 
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
 constexpr double kHeartbeatPeriod = 1.1;  // [s]
 constexpr const char* kLogger = "logger";
+
+/// [s], between two HEARTBEATs.
+double beat(double silence_limit) {
+  return silence_limit > 0 ? silence_limit / messaging::kBeatsWithinLimit
+                           : messaging::Heartbeat::kPeriod;
+}
 
 /// As HEARTBEAT names this machine.
 std::string hostName() {
@@ -87,12 +95,16 @@ class NetworkRun {
         experiment_(endpoint_, clock_, roster_, setup.settings),
         judge_(endpoint_),
         verdicts_(experiment_, judge_, setup.settings.target.radius, progress),
-        heartbeat_(endpoint_, clock_, experiment_) {
+        heartbeat_(endpoint_, clock_, experiment_, beat(setup.options.silence_limit)) {
+    if (setup.options.silence_limit > 0)
+      watch_.emplace(endpoint_, clock_, experiment_.name(), setup.options.silence_limit);
     endpoint_.subscribe<logger_status_t>(messaging::kLoggerStatus,
                                          [this](const auto& m) { logger_status_ = m; });
   }
 
   void listenForOthers();
+  /// So that nobody takes the end of this run for a cut cable.
+  void sayLast() { heartbeat_.sayLast(); }
   void startProcesses();
   /// Finds the processes of a system.
   void joinSystem();
@@ -110,6 +122,7 @@ class NetworkRun {
   void pumpFor(double seconds, bool act);
   void awaitProcesses(const std::vector<std::string>& names);
   void watch();
+  void watchPeers();
   bool isOurs(const heartbeat_t& heartbeat) const;
   void refuseStrangers() const;
 
@@ -122,6 +135,7 @@ class NetworkRun {
   messaging::LcmEndpoint endpoint_;
   Roster roster_;
   SilenceWatch silence_;
+  std::optional<messaging::PeerWatch> watch_;  ///< with a silence limit
   ExperimentNode experiment_;
   Judge judge_;
   Verdicts verdicts_;
@@ -129,6 +143,7 @@ class NetworkRun {
   Processes processes_;
   logger_status_t logger_status_{};
   int64_t next_watch_us_ = INT64_MIN;
+  bool conducting_ = false;
   const std::string host_ = hostName();
 };
 
@@ -140,6 +155,8 @@ void NetworkRun::pump(bool act) {
   poll(waits.data(), waits.size(), static_cast<int>(std::max<int64_t>(0, wake - now + 999) / 1000));
   const int64_t woke = clock_.monotonicUs();
   endpoint_.drain();
+  if (watch_)
+    watchPeers();
   if (act)
     experiment_.step();
   heartbeat_.update(static_cast<double>(clock_.monotonicUs() - woke));
@@ -154,6 +171,16 @@ void NetworkRun::pumpFor(double seconds, bool act) {
   const int64_t end = clock_.monotonicUs() + std::llround(seconds * kMicro);
   while (clock_.monotonicUs() < end)
     pump(act);
+}
+
+void NetworkRun::watchPeers() {
+  const std::vector<messaging::PeerNews> all = watch_->update();
+  heartbeat_.setNote(watch_->silence());
+  for (const messaging::PeerNews& news : all) {
+    if (news.is_silent && conducting_)
+      throw std::runtime_error(news.sentence + ": a link is cut, or they hang");
+    progress_.line(news.sentence);
+  }
 }
 
 void NetworkRun::watch() {
@@ -233,6 +260,7 @@ void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {
 }
 
 void NetworkRun::conduct() {
+  conducting_ = true;
   try {
     while (!experiment_.finished()) {
       pump(true);
@@ -301,6 +329,7 @@ void runOverNetwork(const RunSetup& setup, Progress& progress, RunResult& result
   } catch (const std::exception& e) {
     result.error = e.what();
   }
+  run.sayLast();
   const std::string fault = run.stopProcesses();
   if (result.error.empty())
     result.error = fault;

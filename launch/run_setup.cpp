@@ -62,7 +62,12 @@ RunSetup prepareRun(const RunOptions& options) {
   RunSetup setup;
   setup.options.config = absolutePath(config::experimentPath(options.config));
   setup.on_system = !options.system.empty();
-  setup.options.lcm_url = setup.on_system ? loadSystem(options.system).lcm_url : options.lcm_url;
+  setup.options.lcm_url = options.lcm_url;
+  if (setup.on_system) {
+    const System system = loadSystem(options.system);
+    setup.options.lcm_url = system.lcm_url;
+    setup.options.silence_limit = system.silence_limit;
+  }
   setup.options.realtime = options.realtime;
   setup.command_line = options.command_line;
   setup.options.uncertainty = absolutePath(options.uncertainty);

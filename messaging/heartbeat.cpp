@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "messaging/version.h"
 
 namespace fastball::messaging {
 namespace {
-
-constexpr int64_t kPeriodUs = 1'000'000;
 
 std::string hostName() {
   std::array<char, kNameBytes + 1> name{};
@@ -25,12 +24,23 @@ bool sameWords(const NodeState& a, const NodeState& b) {
 
 }  // namespace
 
-Heartbeat::Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node)
-    : endpoint_(endpoint), clock_(clock), node_(node), publisher_(endpoint, kHeartbeat) {
+Heartbeat::Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node, double period)
+    : endpoint_(endpoint),
+      clock_(clock),
+      node_(node),
+      publisher_(endpoint, kHeartbeat),
+      period_us_(std::llround(period * 1e6)) {
   message_.name = node.name();
   message_.host = hostName();
   message_.pid = getpid();
   message_.version = version();
+}
+
+NodeState Heartbeat::words() const {
+  NodeState state = node_.state();
+  if (!note_.empty())
+    state.detail += (state.detail.empty() ? "" : "; ") + note_;
+  return state;
 }
 
 void Heartbeat::update(double loop_us) {
@@ -39,24 +49,23 @@ void Heartbeat::update(double loop_us) {
   ++loops_;
   const int64_t now_us = clock_.monotonicUs();
   const bool due = now_us >= next_us_;
-  NodeState state = node_.state();
+  NodeState state = words();
   if (!due && sameWords(state, said_))
     return;
   said_ = std::move(state);
   say();
   if (!due)
     return;
-  next_us_ = now_us + kPeriodUs;
+  next_us_ = now_us + period_us_;
   loop_sum_us_ = loop_max_us_ = 0;
   loops_ = 0;
 }
 
 void Heartbeat::sayLast(const std::string& failure) {
-  said_ = node_.state();
-  if (!failure.empty()) {
-    said_.state = "failed";
+  said_ = words();
+  if (!failure.empty())
     said_.detail = failure;
-  }
+  said_.state = failure.empty() && said_.state != "failed" ? "ended" : "failed";
   say();
 }
 

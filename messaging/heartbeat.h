@@ -8,24 +8,30 @@
 
 namespace fastball::messaging {
 
-/// Says HEARTBEAT for a node: once a second and whenever its state(), detail or plan_id change.
+/// Says HEARTBEAT for a node: once a period and whenever its state(), detail or plan_id change.
 class Heartbeat {
  public:
-  Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node);
+  static constexpr double kPeriod = 1;  ///< [s]
+  /// @param period [s]
+  Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node, double period = kPeriod);
+  /// What is said behind the node's own detail from now on: a sentence, or empty.
+  void setNote(const std::string& note) { note_ = note; }
   /// Call after every step(). `loop_us`: how long drain and step took, for the loop figures.
   void update(double loop_us);
-  /// The last words of a process. `failure`: the sentence it fails with, sent as state "failed";
-  /// empty: the node's own state.
+  /// The last words of a process, state "ended", or "failed" if the node is or `failure`, a sentence, is not empty.
   void sayLast(const std::string& failure = "");
   /// Monotonic time [us] of the next heartbeat due.
   int64_t wakeUs() const { return next_us_; }
 
  private:
+  NodeState words() const;
   void say();
   Endpoint& endpoint_;
   const Clock& clock_;
   const Node& node_;
   Publisher<heartbeat_t> publisher_;
+  const int64_t period_us_;
+  std::string note_;
   NodeState said_;
   heartbeat_t message_{};
   int64_t next_us_ = INT64_MIN;

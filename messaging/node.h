@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "messaging/clock.h"
 #include "messaging/endpoint.h"
@@ -28,6 +29,10 @@ class Node {
   /// Monotonic time [us] at which step() must be called even if no message comes; INT64_MAX: never.
   virtual int64_t wakeUs() const { return INT64_MAX; }
   virtual NodeState state() const = 0;
+  /// These processes, heard before, have fallen silent, as the sentence says; called once each time. Only where there is a limit
+  /// (PeerWatch).
+  virtual void onSilence(const std::vector<std::string>& /*names*/,
+                         const std::string& /*sentence*/) {}
   /// True when the process shall end by itself (for example after an unrecoverable error; state()
   /// says why).
   virtual bool finished() const { return false; }

@@ -11,9 +11,11 @@
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "messaging/heartbeat.h"
+#include "messaging/peer_watch.h"
 #include "messaging/stop_signals.h"
 #include "messaging/version.h"
 
@@ -41,21 +43,49 @@ int64_t deadlineUs(const Clock& clock, double duration_s) {
   return clock.monotonicUs() + static_cast<int64_t>(std::min(duration_s, limit_s) * 1e6);
 }
 
+/// Tells who has fallen silent and who is back. Without a limit there is nobody to tell of.
+class Watch {
+ public:
+  Watch(Node& node, LcmEndpoint& endpoint, const Clock& clock, double limit) : node_(node) {
+    if (limit > 0)
+      peers_.emplace(endpoint, clock, node.name(), limit);
+  }
+  void update(Heartbeat& heartbeat) {
+    if (!peers_)
+      return;
+    const std::vector<PeerNews> all = peers_->update();
+    heartbeat.setNote(peers_->silence());
+    for (const PeerNews& news : all) {
+      spdlog::warn("{}", news.sentence);
+      if (news.is_silent)
+        node_.onSilence(news.names, news.sentence);
+    }
+  }
+  int64_t wakeUs() const { return peers_ ? peers_->wakeUs() : INT64_MAX; }
+
+ private:
+  Node& node_;
+  std::optional<PeerWatch> peers_;
+};
+
 void loop(Node& node,
           LcmEndpoint& endpoint,
           const Clock& clock,
           double duration_s,
           Heartbeat& heartbeat,
+          Watch& watch,
           const StopSignals& signals) {
   const int64_t deadline_us = deadlineUs(clock, duration_s);
   while (true) {
     const int64_t start_us = clock.monotonicUs();
     endpoint.drain();
+    watch.update(heartbeat);
     node.step();
     heartbeat.update(static_cast<double>(clock.monotonicUs() - start_us));
     if (node.finished() || signals.received() || clock.monotonicUs() >= deadline_us)
       return;
-    const int64_t until_us = std::min({node.wakeUs(), heartbeat.wakeUs(), deadline_us});
+    const int64_t until_us =
+        std::min({node.wakeUs(), heartbeat.wakeUs(), watch.wakeUs(), deadline_us});
     waitUntil(until_us, clock, endpoint.fileDescriptor(), signals.fileDescriptor());
   }
 }
@@ -78,16 +108,22 @@ int runProcess(const std::string& name, const ProcessOptions& options, const Mak
   std::fflush(stdout);
   const SystemClock clock;
   const auto node = make_node(endpoint, clock, options);
-  return runOverLcm(*node, endpoint, clock, options.duration_s);
+  return runOverLcm(*node, endpoint, clock, options.duration_s, options.silence_limit);
 }
 
 }  // namespace
 
-int runOverLcm(Node& node, LcmEndpoint& endpoint, const Clock& clock, double duration_s) {
+int runOverLcm(Node& node,
+               LcmEndpoint& endpoint,
+               const Clock& clock,
+               double duration_s,
+               double silence_limit) {
   const StopSignals signals;
-  Heartbeat heartbeat(endpoint, clock, node);
+  const double period = silence_limit > 0 ? silence_limit / kBeatsWithinLimit : Heartbeat::kPeriod;
+  Heartbeat heartbeat(endpoint, clock, node, period);
+  Watch watch(node, endpoint, clock, silence_limit);
   try {
-    loop(node, endpoint, clock, duration_s, heartbeat, signals);
+    loop(node, endpoint, clock, duration_s, heartbeat, watch, signals);
   } catch (const std::exception& error) {
     heartbeat.sayLast(error.what());
     node.shutDown();
@@ -122,6 +158,13 @@ int processMain(int argc,
   app.add_option("--duration", options.duration_s,
                  "End after this time; 0: run until SIGINT or SIGTERM")
       ->check(CLI::Range(0.0, 1e9))
+      ->option_text("SECONDS");
+  app.add_option(
+         "--silence-limit", options.silence_limit,
+         "For processes on several machines: how soon a silent one is noticed; HEARTBEAT is "
+         "said five times as often; default: $FASTBALL_SILENCE_LIMIT, else 0: never")
+      ->envname("FASTBALL_SILENCE_LIMIT")
+      ->check(CLI::Range(0.0, 3600.0))
       ->option_text("SECONDS");
   app.add_flag("-v,--verbose", options.verbose, "Say more on standard error");
   app.footer("Exit status: 0 done, 1 failed, 2 wrong usage or bad input file.");

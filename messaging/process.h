@@ -27,17 +27,23 @@ struct ProcessOptions {
   bool realtime = false;
   std::string uncertainty;  ///< file of errors to inject; only the simulator reads it
   bool verbose = false;
-  double duration_s = 0;  ///< end after this wall time, 0: run until told to stop
+  double silence_limit = 0;  ///< [s], 0: none (messaging/peer_watch.h)
+  double duration_s = 0;     ///< end after this wall time, 0: run until told to stop
 };
 
 /// Runs a node over LCM until SIGINT or SIGTERM, node.finished(), or duration_s: waits on the file
 /// descriptor until a message comes or a wake time is reached, drains, steps, says the HEARTBEAT.
-/// Ends with node.shutDown() and a last HEARTBEAT.
+/// Ends with node.shutDown() and a last HEARTBEAT. With a silence limit [s] it says HEARTBEAT that much faster, and tells the
+/// node, standard error and the others who has fallen silent and who is back.
 /// @return kExitDone, or kExitFailed if the node finished in state "failed".
-int runOverLcm(Node& node, LcmEndpoint& endpoint, const Clock& clock, double duration_s = 0);
+int runOverLcm(Node& node,
+               LcmEndpoint& endpoint,
+               const Clock& clock,
+               double duration_s = 0,
+               double silence_limit = 0);
 
 /// The main() of every process: parses flags (CLI11; `--lcm-url --config --realtime --verbose
-/// --duration --version`), connects, prints one line (name, version, URL), builds the node, runs
+/// --duration --silence-limit --version`), connects, prints one line (name, version, URL), builds the node, runs
 /// it, and turns exceptions into one sentence on stderr and an exit status (2 for
 /// std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1).
 using MakeNode =

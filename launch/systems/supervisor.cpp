@@ -16,8 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kListenTime = 1100ms;   // HEARTBEAT comes once a second
-constexpr auto kSilentAfter = 3s;      // without a HEARTBEAT
+constexpr auto kListenTime = 1100ms;  // HEARTBEAT comes once a second
+constexpr double kSilentAfter = 3;  // [s] without a HEARTBEAT, where the file has no silence_limit
 constexpr auto kBeatInterval = 500ms;  // the other end gives up after 3 s
 constexpr auto kWriteInterval = 500ms;
 constexpr auto kLinkTime = 2s;  // beyond the grace, for a stop to come and go over a link
@@ -158,10 +158,17 @@ void Supervisor::look(Member& member) {
       failBeforeReady(member, member.note);
   }
   if (member.state == State::kReady && process.ready_when == ReadyWhen::kHeartbeat &&
-      now - member.heard > kSilentAfter) {
-    say(fmt::format("{} on {} has said no HEARTBEAT for 3 s", process.name, process.host.name));
+      now - member.heard > std::chrono::duration<double>(silentAfter(member))) {
+    say(fmt::format("{} on {} has said no HEARTBEAT for {} s", process.name, process.host.name,
+                    silentAfter(member)));
     enter(member, State::kSilent);
   }
+}
+
+double Supervisor::silentAfter(const Member& member) const {
+  const heartbeat_t* heartbeat = roster_.newest(member.process.name);
+  const bool plans = heartbeat != nullptr && heartbeat->state == "planning";
+  return system_.silence_limit > 0 && !plans ? system_.silence_limit : kSilentAfter;
 }
 
 void Supervisor::hear(Member& member) {

@@ -50,6 +50,8 @@ class Supervisor {
   void tick();
   void look(Member& member);
   void hear(Member& member);
+  /// [s]; a planner that plans says nothing meanwhile.
+  double silentAfter(const Member& member) const;
   void ended(Member& member);
   void enter(Member& member, State state);
   void stopNext();

@@ -42,6 +42,9 @@ struct SystemProcess {
 struct System {
   std::string path;     ///< of its file, absolute
   std::string lcm_url;  ///< every process gets it as FASTBALL_LCM_URL
+  /// [s], how soon the processes and a run on them notice that one is silent; 0: never. Every process gets it as
+  /// FASTBALL_SILENCE_LIMIT.
+  double silence_limit = 0;
   std::vector<SystemProcess> processes;
 
   bool isOnOneMachine() const;

@@ -122,6 +122,19 @@ TEST_F(ControllerNode, EstopBrakes) {
   EXPECT_EQ(statuses_.back().message, "braked: ESTOP: test");
 }
 
+TEST_F(ControllerNode, BrakesWhenTheExperimentFallsSilentAndForNobodyElse) {
+  say(messaging::kArmState, stateMessage(1, 0, kBack, Eigen::Vector4d::Zero()));
+  node_->onSilence({"planner", "vision_tracker"}, "two are silent");
+  settle();
+  EXPECT_EQ(heard(), "idle") << "who else matters is for the experiment to say";
+  node_->onSilence({"experiment", "planner"}, "two are silent");
+  settle();
+  EXPECT_EQ(heard(), "braked");
+  say(messaging::kArmState, stateMessage(1, 1, kBack, Eigen::Vector4d::Zero()));
+  EXPECT_EQ(commands_.back().phase, int{arm_command_t::BRAKE});
+  EXPECT_EQ(statuses_.back().message, "braked: two are silent");
+}
+
 class ControllerNodeInRealTime : public ControllerNode {
  protected:
   ControllerNodeInRealTime() : ControllerNode(true) {}

@@ -113,6 +113,19 @@ TEST_F(HandServerNode, EstopKeepsTheGripAndSaysSo) {
   EXPECT_TRUE(releases_.empty());
 }
 
+TEST_F(HandServerNode, KeepsTheBallWhenTheExperimentFallsSilent) {
+  arm();
+  for (int i = 0; i < 500; ++i)
+    tick(i, 2.0);
+  node_->onSilence({"planner"}, "one is silent");
+  settle();
+  EXPECT_EQ(heartbeat_.state, "running");
+  node_->onSilence({"experiment"}, "one is silent");
+  settle();
+  EXPECT_EQ(heartbeat_.state, "holding");
+  EXPECT_EQ(heartbeat_.detail, "kept the ball: one is silent");
+}
+
 TEST_F(HandServerNode, AnArmThatLeavesThePlanKeepsTheBall) {
   arm();
   for (int i = 0; i < 500; ++i)

@@ -64,6 +64,22 @@ TEST_F(SystemFile, SeveralMachinesNeedAUrlThatLeavesThem) {
             "robot");
 }
 
+TEST_F(SystemFile, SeveralMachinesHaveASilenceLimitThatEveryProcessIsTold) {
+  const std::string here = "processes: [{name: a, command: [x], environment: [A=1]}]\n";
+  const std::string there =
+      "hosts: [{name: robot}]\nlcm_url: udpm://239.255.76.67:7667?ttl=1\n"
+      "processes: [{name: a, host: robot, command: [x]}]\n";
+  EXPECT_EQ(load(here).silence_limit, 0);
+  EXPECT_THAT(load(here).processes[0].environment, ElementsAre("A=1"));
+  EXPECT_EQ(load(there).silence_limit, 0.5);
+  EXPECT_THAT(load(there).processes[0].environment, ElementsAre("FASTBALL_SILENCE_LIMIT=0.5"));
+  EXPECT_EQ(load("silence_limit: 0\n" + there).silence_limit, 0);
+  EXPECT_THAT(load("silence_limit: 2\n" + here).processes[0].environment,
+              ElementsAre("FASTBALL_SILENCE_LIMIT=2", "A=1"));
+  EXPECT_THAT(errorOf("silence_limit: 0.05\n" + here),
+              HasSubstr("key 'silence_limit': is 0.05 s, must be 0 (none) or at least 0.1 s"));
+}
+
 TEST(ShippedSystems, CanBeRead) {
   const std::string folder = FASTBALL_SOURCE_DIR "/config/systems/";
   EXPECT_EQ(loadSystem(folder + "one-machine.yaml").processes.size(), 6u);

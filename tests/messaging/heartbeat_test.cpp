@@ -61,6 +61,23 @@ TEST_F(HeartbeatTest, IsSaidOnceASecond) {
   EXPECT_EQ(heartbeat.wakeUs(), 2'000'000);
 }
 
+TEST_F(HeartbeatTest, IsSaidAsOftenAsAskedFor) {
+  Heartbeat fast(endpoint, clock, node, 0.1);
+  fast.update(0);
+  EXPECT_EQ(fast.wakeUs(), 100'000);
+}
+
+TEST_F(HeartbeatTest, ANoteIsSaidAtOnceBehindTheNodesOwnWords) {
+  node.node_state.detail = "ready";
+  update();
+  heartbeat.setNote("the cable is cut");
+  ASSERT_EQ(update(), 1U);
+  EXPECT_EQ(heard[0].detail, "ready; the cable is cut");
+  heartbeat.setNote("");
+  ASSERT_EQ(update(), 1U);
+  EXPECT_EQ(heard[0].detail, "ready");
+}
+
 TEST_F(HeartbeatTest, IsSaidAtOnceWhenStatePlanOrDetailChange) {
   update();
   node.node_state.state = "armed";
@@ -101,6 +118,13 @@ TEST_F(HeartbeatTest, LongDetailIsShortenedNotLost) {
   node.node_state.detail.assign(5000, 'x');
   ASSERT_EQ(update(), 1U);
   EXPECT_EQ(heard[0].detail.size(), kSentenceBytes);
+}
+
+TEST_F(HeartbeatTest, LastWordsAreKnownAsSuch) {
+  heartbeat.sayLast();
+  listener.drain();
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_EQ(heard[0].state, "ended");
 }
 
 TEST_F(HeartbeatTest, LastWordsNameTheFailure) {
