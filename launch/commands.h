@@ -16,6 +16,7 @@ void addAtlasCommand(CLI::App& app, int& exit_status);
 void addLogCommand(CLI::App& app, int& exit_status);
 void addReplayCommand(CLI::App& app, int& exit_status);
 void addFiguresCommand(CLI::App& app, int& exit_status);
+void addKeyCommand(CLI::App& app, int& exit_status);
 void addReportCommand(CLI::App& app, int& exit_status);
 void addCalibrateCommand(CLI::App& app, int& exit_status);
 void addTrackCommand(CLI::App& app, int& exit_status);

@@ -27,6 +27,7 @@ int fastballMain(int argc, char** argv) {
   fastball::launch::addSpyCommand(app, exit_status);
   fastball::launch::addLogCommand(app, exit_status);
   fastball::launch::addReplayCommand(app, exit_status);
+  fastball::launch::addKeyCommand(app, exit_status);
   fastball::launch::addReportCommand(app, exit_status);
   fastball::launch::addCalibrateCommand(app, exit_status);
   fastball::launch::addTrackCommand(app, exit_status);

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "launch/experiment_node.h"
+#include "launch/key_check.h"
 #include "launch/processes.h"
 #include "launch/silence_watch.h"
 #include "launch/verdicts.h"
@@ -48,6 +49,11 @@ std::string hostName() {
   return host.data();
 }
 
+/// The logger keeps all bytes as they come.
+bool hearsCommands(const std::string& name) {
+  return name != kLogger;
+}
+
 std::vector<ProcessCommand> commands(const RunSetup& setup) {
   std::vector<std::string> shared = {"--lcm-url", setup.options.lcm_url, "--config",
                                      setup.options.config};
@@ -70,6 +76,8 @@ std::vector<ProcessCommand> commands(const RunSetup& setup) {
     if (command.name == "sim_bullet" && !setup.options.uncertainty.empty()) {
       arguments.insert(arguments.end(), {"--uncertainty", setup.options.uncertainty});
     }
+    if (hearsCommands(command.name) && setup.key)
+      arguments.insert(arguments.end(), {"--key", setup.options.key});
   }
   return all;
 }
@@ -89,13 +97,17 @@ class NetworkRun {
         commands_(commands(setup)),
         peers_(namesOf(commands_)),
         progress_(progress),
-        endpoint_(setup.options.lcm_url),
+        endpoint_(setup.options.lcm_url, setup.key, "experiment"),
         roster_(endpoint_),
         silence_(endpoint_, clock_),
         experiment_(endpoint_, clock_, roster_, setup.settings),
         judge_(endpoint_),
         verdicts_(experiment_, judge_, setup.settings.target.radius, progress),
-        heartbeat_(endpoint_, clock_, experiment_, beat(setup.options.silence_limit)) {
+        heartbeat_(endpoint_,
+                   clock_,
+                   experiment_,
+                   beat(setup.options.silence_limit),
+                   endpoint_.keyId()) {
     if (setup.options.silence_limit > 0)
       watch_.emplace(endpoint_, clock_, experiment_.name(), setup.options.silence_limit);
     endpoint_.subscribe<logger_status_t>(messaging::kLoggerStatus,
@@ -125,6 +137,7 @@ class NetworkRun {
   void watchPeers();
   bool isOurs(const heartbeat_t& heartbeat) const;
   void refuseStrangers() const;
+  void refuseOtherKeys() const;
 
   const RunSetup& setup_;
   const std::vector<ProcessCommand> commands_;
@@ -159,6 +172,7 @@ void NetworkRun::pump(bool act) {
     watchPeers();
   if (act)
     experiment_.step();
+  heartbeat_.remark(endpoint_.refusals());
   heartbeat_.update(static_cast<double>(clock_.monotonicUs() - woke));
   verdicts_.update();
   if (woke >= next_watch_us_) {
@@ -193,6 +207,7 @@ void NetworkRun::watch() {
   if (!silent.empty())
     throw std::runtime_error(fmt::format("{} (run.answer_timeout {} s)", silent, timeout));
   refuseStrangers();
+  refuseOtherKeys();
 }
 
 std::string NetworkRun::silence() const {
@@ -220,6 +235,16 @@ void NetworkRun::refuseStrangers() const {
         fmt::format("another run is on {}: its {} (process {} on {}) was heard; end it, or give "
                     "this run a port of its own with --lcm-url",
                     setup_.options.lcm_url, heartbeat.name, heartbeat.pid, heartbeat.host));
+  }
+}
+
+void NetworkRun::refuseOtherKeys() const {
+  for (const std::string& name : peers_) {
+    const heartbeat_t* heartbeat = roster_.newest(name);
+    if (heartbeat == nullptr || !hearsCommands(name))
+      continue;
+    if (const std::string fault = keyFault(*heartbeat, endpoint_.keyId()); !fault.empty())
+      throw std::runtime_error(fault);
   }
 }
 

@@ -84,7 +84,7 @@ int64_t replayLog(const std::string& log_path,
       continue;
     if (!pace.await(std::max<int64_t>(utime - skipped_us, 0)))
       break;
-    said += endpoint.publishBytes(name, entry.data.data(), entry.data.size()) ? 1 : 0;
+    said += endpoint.publishRecorded(name, entry.data.data(), entry.data.size()) ? 1 : 0;
     console.show(kSeconds * static_cast<double>(utime),
                  static_cast<double>(reader.offset()) / static_cast<double>(reader.fileBytes()),
                  said);

@@ -19,7 +19,7 @@ namespace fastball::launch {
 namespace {
 
 struct Options {
-  std::string log, rerun, config;
+  std::string log, rerun, config, key;
   std::string lcm_url = messaging::defaultLcmUrl();
   std::vector<std::string> names;
   ReplayOptions replay;
@@ -79,7 +79,7 @@ std::map<std::string, std::string> namePairs(const std::vector<std::string>& pai
 
 int sayAgain(Options& options) {
   options.replay.names = namePairs(options.names);
-  messaging::LcmEndpoint endpoint(options.lcm_url);
+  messaging::LcmEndpoint endpoint(options.lcm_url, messaging::keyOf(options.key), "replay");
   TerminalConsole console(options.replay.paused);
   const int64_t said = replayLog(options.log, options.replay, endpoint, console);
   console.line(fmt::format("replayed {} messages on {}{}", said, endpoint.url(),
@@ -107,6 +107,10 @@ void addFlags(CLI::App& command, Options& options) {
                    "Begin paused; the space bar goes on and pauses");
   command.add_flag("--commands", options.replay.commands,
                    "Replay also the channels that make a robot move");
+  command
+      .add_option("--key", options.key,
+                  "File of the key that commands must carry (made by 'fastball key')")
+      ->option_text("FILE");
   command
       .add_option("--rerun", options.rerun,
                   "Feed the recorded input to this process and compare all that it says")

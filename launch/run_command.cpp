@@ -115,6 +115,8 @@ void addRunCommand(CLI::App& app, int& exit_status) {
                                             "Pace by the clock instead of in lockstep");
   CLI::Option* url = command->add_option("--lcm-url", options->lcm_url, "Where the processes meet")
                          ->capture_default_str();
+  CLI::Option* key =
+      command->add_option("--key", options->key, messaging::kKeyHelp)->option_text("FILE");
   CLI::Option* uncertainty = command->get_option("--uncertainty");
   command
       ->add_option("--system", options->system,
@@ -128,7 +130,8 @@ void addRunCommand(CLI::App& app, int& exit_status) {
                  "The same parts in one process: no LCM, no log, the same throws")
       ->excludes(log)
       ->excludes(realtime)
-      ->excludes(url);
+      ->excludes(url)
+      ->excludes(key);
   command->callback([options, &exit_status] {
     options->command_line = commandLine();
     exit_status = run(*options);

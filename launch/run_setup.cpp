@@ -71,6 +71,8 @@ RunSetup prepareRun(const RunOptions& options) {
   setup.options.realtime = options.realtime;
   setup.command_line = options.command_line;
   setup.options.uncertainty = absolutePath(options.uncertainty);
+  setup.options.key = absolutePath(options.key);
+  setup.key = messaging::keyOf(setup.options.key);
 
   const config::Experiment experiment = config::loadExperiment(setup.options.config);
   setup.arm = experiment.arm.profile;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "launch/throw_script.h"
@@ -15,6 +16,7 @@ struct RunOptions {
   std::string strategy;     ///< empty: the one of the experiment file
   std::string config;       ///< empty: the default experiment
   std::string uncertainty;  ///< empty: no errors are injected
+  std::string key;          ///< file, empty: commands carry no tag
   std::string log;          ///< empty: runs/<time>-seed<seed>.lcmlog
   std::string json;         ///< empty: none
   bool realtime = false;
@@ -28,11 +30,12 @@ struct RunOptions {
 /// A run whose inputs have been read and found good.
 struct RunSetup {
   RunSettings settings;
-  messaging::ProcessOptions options;  ///< for every process
-  std::string arm;                    ///< profile of the arm
-  std::string log;                    ///< path of the log, empty: none
-  std::string command_line;           ///< for the record beside the log
-  bool on_system = false;             ///< the processes are there already
+  messaging::ProcessOptions options;                 ///< for every process
+  std::shared_ptr<const messaging::CommandKey> key;  ///< that of options.key
+  std::string arm;                                   ///< profile of the arm
+  std::string log;                                   ///< path of the log, empty: none
+  std::string command_line;                          ///< for the record beside the log
+  bool on_system = false;                            ///< the processes are there already
 };
 
 /// Reads the experiment file with every process's section and checks all that can be checked before anything is started.

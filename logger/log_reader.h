@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "logger/record_format.h"
+#include "messaging/command_trailer.h"
 
 namespace fastball::logger {
 
@@ -15,10 +16,10 @@ struct LogEntry {
   std::string channel;
   std::vector<char> data;
 
-  /// Decodes into T. @return false if the bytes are not a T from first to last.
+  /// Decodes into T. @return false if the bytes are not a T from first to last, but for a command's trailer.
   template <class T>
   bool decode(T& message) const {
-    const int size = static_cast<int>(data.size());
+    const int size = static_cast<int>(messaging::withoutTrailer(data.data(), data.size()));
     return message.decode(data.data(), 0, size) == size;
   }
 };

@@ -11,6 +11,9 @@
 namespace fastball::messaging {
 namespace {
 
+/// In front of the key's name in HEARTBEAT's version.
+const std::string kKey = ", key ";
+
 std::string hostName() {
   std::array<char, kNameBytes + 1> name{};
   if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0')
@@ -24,7 +27,11 @@ bool sameWords(const NodeState& a, const NodeState& b) {
 
 }  // namespace
 
-Heartbeat::Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node, double period)
+Heartbeat::Heartbeat(Endpoint& endpoint,
+                     const Clock& clock,
+                     const Node& node,
+                     double period,
+                     const std::string& key_id)
     : endpoint_(endpoint),
       clock_(clock),
       node_(node),
@@ -34,12 +41,16 @@ Heartbeat::Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node, d
   message_.host = hostName();
   message_.pid = getpid();
   message_.version = version();
+  if (!key_id.empty())
+    message_.version += kKey + key_id;
 }
 
 NodeState Heartbeat::words() const {
   NodeState state = node_.state();
-  if (!note_.empty())
-    state.detail += (state.detail.empty() ? "" : "; ") + note_;
+  for (const std::string* more : {&note_, &remark_}) {
+    if (!more->empty())
+      state.detail += (state.detail.empty() ? "" : "; ") + *more;
+  }
   return state;
 }
 
@@ -83,6 +94,11 @@ void Heartbeat::say() {
   message_.loop_mean_us = loops_ > 0 ? loop_sum_us_ / static_cast<double>(loops_) : 0;
   message_.loop_max_us = loop_max_us_;
   publisher_.publish(message_);
+}
+
+std::string keyIdOf(const heartbeat_t& heartbeat) {
+  const auto key = heartbeat.version.rfind(kKey);
+  return key == std::string::npos ? "" : heartbeat.version.substr(key + kKey.size());
 }
 
 }  // namespace fastball::messaging

@@ -13,9 +13,16 @@ class Heartbeat {
  public:
   static constexpr double kPeriod = 1;  ///< [s]
   /// @param period [s]
-  Heartbeat(Endpoint& endpoint, const Clock& clock, const Node& node, double period = kPeriod);
+  /// @param key_id of the key that the process's commands carry (CommandKey::id()), empty: none. It stands behind the version.
+  Heartbeat(Endpoint& endpoint,
+            const Clock& clock,
+            const Node& node,
+            double period = kPeriod,
+            const std::string& key_id = "");
   /// What is said behind the node's own detail from now on: a sentence, or empty.
   void setNote(const std::string& note) { note_ = note; }
+  /// Another such sentence, behind that.
+  void remark(const std::string& sentence) { remark_ = sentence; }
   /// Call after every step(). `loop_us`: how long drain and step took, for the loop figures.
   void update(double loop_us);
   /// The last words of a process, state "ended", or "failed" if the node is or `failure`, a sentence, is not empty.
@@ -31,7 +38,7 @@ class Heartbeat {
   const Node& node_;
   Publisher<heartbeat_t> publisher_;
   const int64_t period_us_;
-  std::string note_;
+  std::string note_, remark_;
   NodeState said_;
   heartbeat_t message_{};
   int64_t next_us_ = INT64_MIN;
@@ -39,5 +46,8 @@ class Heartbeat {
   double loop_max_us_ = 0;
   int64_t loops_ = 0;
 };
+
+/// The key that a HEARTBEAT names, or empty.
+std::string keyIdOf(const heartbeat_t& heartbeat);
 
 }  // namespace fastball::messaging

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 #include <lcm/lcm.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "messaging/clock.h"
+#include "messaging/command_guard.h"
 #include "messaging/multicast_check.h"
 #include "messaging/receiver.h"
 
@@ -18,18 +22,57 @@ namespace {
 
 constexpr const char* kReceiveBuffer = "recv_buf_size=4194304";
 
+/// What the key kept out, in words.
+class Refusals {
+ public:
+  void tell(const std::string& channel, int64_t count, const std::string& what) {
+    spdlog::warn("refused {} {}{}; this one: {}", count, channel, count == 1 ? "" : "s", what);
+    Channel& told = channels_[channel];
+    if (told.count == 0)
+      told.first = what;
+    told.count = count;
+    sentence_.clear();
+    for (const auto& [name, refused] : channels_) {
+      sentence_ += fmt::format("{}refused {} {}{}; the first: {}", sentence_.empty() ? "" : "; ",
+                               refused.count, name, refused.count == 1 ? "" : "s", refused.first);
+    }
+  }
+  const std::string& sentence() const { return sentence_; }
+
+ private:
+  struct Channel {
+    int64_t count = 0;
+    std::string first;
+  };
+  std::map<std::string, Channel> channels_;
+  std::string sentence_;
+};
+
 /// LCM's face of one subscription to a typed channel.
 class TypedSubscription {
  public:
-  explicit TypedSubscription(Receiver receiver)
-      : receiver_(std::move(receiver)), message_(receiver_.type().make()) {}
+  /// `key`: null for none. What it keeps out is told in `refusals`, under `channel`.
+  TypedSubscription(Receiver receiver,
+                    const std::string& channel,
+                    const std::shared_ptr<const CommandKey>& key,
+                    Refusals& refusals)
+      : receiver_(std::move(receiver)),
+        message_(receiver_.type().make()),
+        is_command_(isCommandChannel(channel)),
+        refusals_(refusals) {
+    if (key && is_command_)
+      guard_.emplace(key, channel);
+  }
   Receiver& receiver() { return receiver_; }
 
   void onMessage(const lcm_recv_buf_t& buffer, const char* channel) {
     // No exception may pass through LCM's C code: its next handle() would abort the process.
     try {
+      if (guard_ && !passes(buffer, channel))
+        return;
       const MessageType& type = receiver_.type();
-      const auto size = static_cast<int>(buffer.data_size);
+      const auto size = static_cast<int>(is_command_ ? withoutTrailer(buffer.data, buffer.data_size)
+                                                     : buffer.data_size);
       if (type.decode(message_.get(), buffer.data, size) != size) {
         receiver_.refuse(fmt::format("{}: {} bytes do not decode to its type", channel, size));
       } else if (const auto broken = type.fault(message_.get())) {
@@ -43,8 +86,22 @@ class TypedSubscription {
   }
 
  private:
+  bool passes(const lcm_recv_buf_t& buffer, const char* channel) {
+    if (guard_->check(buffer.data, buffer.data_size, buffer.recv_utime) ==
+        CommandGuard::Fault::kNone)
+      return true;
+    receiver_.refuseSilently();
+    if (worthALine(++kept_out_))
+      refusals_.tell(channel, kept_out_, guard_->words());
+    return false;
+  }
+
   Receiver receiver_;
   std::shared_ptr<void> message_;
+  bool is_command_;
+  std::optional<CommandGuard> guard_;
+  int64_t kept_out_ = 0;
+  Refusals& refusals_;
 };
 
 /// LCM's face of one subscription to undecoded channels.
@@ -107,10 +164,15 @@ std::string withReceiveBuffer(const std::string& url) {
 }
 
 struct LcmEndpoint::Impl {
-  explicit Impl(const std::string& its_url)
+  Impl(const std::string& its_url,
+       std::shared_ptr<const CommandKey> its_key,
+       const std::string& name)
       : url(withReceiveBuffer(its_url)),
         lcm(open(url)),
-        file_descriptor(lcm_get_fileno(lcm.get())) {
+        file_descriptor(lcm_get_fileno(lcm.get())),
+        key(std::move(its_key)) {
+    if (key)
+      signer.emplace(key, name);
     // LCM starts its reader when it is asked for the descriptor; where that fails, lcm_handle() would abort the process.
     if (file_descriptor < 0) {
       throw std::runtime_error(
@@ -130,7 +192,20 @@ struct LcmEndpoint::Impl {
 
   std::string url;
   std::unique_ptr<lcm_t, void (*)(lcm_t*)> lcm;
+  void makeRoom(std::size_t bytes) { send_buffer.resize(std::max(send_buffer.size(), bytes)); }
+  /// True where a message gets a trailer.
+  bool signs(const std::string& channel) const { return signer && isCommandChannel(channel); }
+  /// Signs what is in send_buffer and sends it.
+  bool publishSigned(LcmEndpoint& endpoint, const std::string& channel, std::size_t size) {
+    signer->sign(channel, send_buffer.data(), size, clock.wallUs());
+    return endpoint.publishBytes(channel, send_buffer.data(), size + kTrailerBytes);
+  }
+
   int file_descriptor;
+  std::shared_ptr<const CommandKey> key;
+  std::optional<CommandSigner> signer;
+  SystemClock clock;
+  Refusals refusals;
   std::map<std::string, ReceiveCounts> counts;
   std::map<std::string, TypedSubscription> typed;
   std::vector<std::unique_ptr<RawSubscription>> raw;
@@ -138,7 +213,10 @@ struct LcmEndpoint::Impl {
   UnsentCount unsent;
 };
 
-LcmEndpoint::LcmEndpoint(const std::string& url) : impl_(std::make_unique<Impl>(url)) {}
+LcmEndpoint::LcmEndpoint(const std::string& url,
+                         std::shared_ptr<const CommandKey> key,
+                         const std::string& name)
+    : impl_(std::make_unique<Impl>(url, std::move(key), name)) {}
 
 LcmEndpoint::~LcmEndpoint() = default;
 
@@ -179,6 +257,23 @@ bool LcmEndpoint::publishBytes(const std::string& channel, const void* data, std
   return false;
 }
 
+bool LcmEndpoint::publishRecorded(const std::string& channel, const void* data, std::size_t size) {
+  if (!impl_->signs(channel))
+    return publishBytes(channel, data, size);
+  size = withoutTrailer(data, size);
+  impl_->makeRoom(size + kTrailerBytes);
+  std::copy_n(static_cast<const char*>(data), size, impl_->send_buffer.data());
+  return impl_->publishSigned(*this, channel, size);
+}
+
+const std::string& LcmEndpoint::refusals() const {
+  return impl_->refusals.sentence();
+}
+
+std::string LcmEndpoint::keyId() const {
+  return impl_->key ? impl_->key->id() : "";
+}
+
 void LcmEndpoint::subscribeRaw(const std::string& channel_regex, RawHandler handler) {
   impl_->raw.push_back(std::make_unique<RawSubscription>(std::move(handler)));
   impl_->subscribe(channel_regex.c_str(), *impl_->raw.back());
@@ -188,16 +283,20 @@ bool LcmEndpoint::publishErased(const char* channel,
                                 std::size_t max_bytes,
                                 const void* message,
                                 const MessageType& type) {
-  if (const auto why = refusal(channel, max_bytes, message, type)) {
+  const bool is_signed = impl_->signs(channel);
+  const std::size_t trailer = is_signed ? kTrailerBytes : 0;
+  if (const auto why = refusal(channel, max_bytes - trailer, message, type)) {
     impl_->unsent.add(*why);
     return false;
   }
   const int size = type.encodedSize(message);
-  impl_->send_buffer.resize(std::max(impl_->send_buffer.size(), static_cast<std::size_t>(size)));
+  impl_->makeRoom(static_cast<std::size_t>(size) + trailer);
   if (type.encode(message, impl_->send_buffer.data(), size) != size) {
     impl_->unsent.add(fmt::format("{}: does not encode", channel));
     return false;
   }
+  if (is_signed)
+    return impl_->publishSigned(*this, channel, static_cast<std::size_t>(size));
   return publishBytes(channel, impl_->send_buffer.data(), static_cast<std::size_t>(size));
 }
 
@@ -208,7 +307,9 @@ void LcmEndpoint::subscribeErased(const char* channel,
   auto entry = impl_->typed.find(channel);
   if (entry == impl_->typed.end()) {
     Receiver receiver(channel, one_sender, type, impl_->counts[channel]);
-    entry = impl_->typed.try_emplace(channel, std::move(receiver)).first;
+    entry =
+        impl_->typed.try_emplace(channel, std::move(receiver), channel, impl_->key, impl_->refusals)
+            .first;
     impl_->subscribe(channel, entry->second);
   }
   entry->second.receiver().addHandler(std::move(handler));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "messaging/command_key.h"
 #include "messaging/endpoint.h"
 
 namespace fastball::messaging {
@@ -19,13 +20,20 @@ std::string withReceiveBuffer(const std::string& url);
 
 /// An endpoint over LCM 1.3.1, with that library's traps closed: URL with buffer size, start-up
 /// check, unlimited queues, full drain, decode to the last byte, exceptions kept inside handlers.
+///
+/// With a key, it puts a trailer behind every command that it sends (messaging/command_trailer.h), and refuses and counts as
+/// invalid every command that it hears without a right one (messaging/command_guard.h). Without a key, it takes commands with
+/// and without a trailer, whatever its tag.
 class LcmEndpoint : public Endpoint {
  public:
   /// @throw std::invalid_argument if the URL does not parse.
   /// @throw std::runtime_error with one sentence that names the URL and how to mend it (no
   /// multicast route: the
   ///   `ip route add` to give) if the network cannot carry it. Takes less than 1 s.
-  explicit LcmEndpoint(const std::string& url);
+  /// `key`: null for none. `name`: who says the commands, such as "controller".
+  explicit LcmEndpoint(const std::string& url,
+                       std::shared_ptr<const CommandKey> key = nullptr,
+                       const std::string& name = "");
   ~LcmEndpoint() override;
 
   /// As Endpoint::drain(), but returns after kDrainLimit messages, so that a flood cannot keep the
@@ -40,6 +48,13 @@ class LcmEndpoint : public Endpoint {
   int fileDescriptor() const;
   /// Sends bytes as they are, unchecked: for replay and for tests with hostile bytes.
   bool publishBytes(const std::string& channel, const void* data, std::size_t size);
+  /// The same, but with this endpoint's key, if it has one, a command gets a trailer of its own, in place of one that it has.
+  bool publishRecorded(const std::string& channel, const void* data, std::size_t size);
+  /// "refused 4 ARM_COMMANDs; the first ... without a tag: ...", of each command channel on which the key kept any out; renewed at
+  /// the 1st, 2nd, 4th, ... of them; or empty.
+  const std::string& refusals() const;
+  /// That of the key (CommandKey::id()), or empty.
+  std::string keyId() const;
   /// Hears every channel, undecoded, with the receive time [us since 1970]: for the logger and spy.
   /// A handler that throws makes drain() throw.
   using RawHandler = std::function<

@@ -81,6 +81,7 @@ void loop(Node& node,
     endpoint.drain();
     watch.update(heartbeat);
     node.step();
+    heartbeat.remark(endpoint.refusals());
     heartbeat.update(static_cast<double>(clock.monotonicUs() - start_us));
     if (node.finished() || signals.received() || clock.monotonicUs() >= deadline_us)
       return;
@@ -103,7 +104,7 @@ int runProcess(const std::string& name, const ProcessOptions& options, const Mak
   std::signal(SIGPIPE, SIG_IGN);
   // From here on a signal ends the process in order, also while its parts are being built.
   const StopSignals signals;
-  LcmEndpoint endpoint(options.lcm_url);
+  LcmEndpoint endpoint(options.lcm_url, keyOf(options.key), name);
   fmt::print("{} {} on {}\n", name, version(), endpoint.url());
   std::fflush(stdout);
   const SystemClock clock;
@@ -113,6 +114,10 @@ int runProcess(const std::string& name, const ProcessOptions& options, const Mak
 
 }  // namespace
 
+std::shared_ptr<const CommandKey> keyOf(const std::string& path) {
+  return path.empty() ? nullptr : std::make_shared<const CommandKey>(CommandKey::read(path));
+}
+
 int runOverLcm(Node& node,
                LcmEndpoint& endpoint,
                const Clock& clock,
@@ -120,7 +125,7 @@ int runOverLcm(Node& node,
                double silence_limit) {
   const StopSignals signals;
   const double period = silence_limit > 0 ? silence_limit / kBeatsWithinLimit : Heartbeat::kPeriod;
-  Heartbeat heartbeat(endpoint, clock, node, period);
+  Heartbeat heartbeat(endpoint, clock, node, period, endpoint.keyId());
   Watch watch(node, endpoint, clock, silence_limit);
   try {
     loop(node, endpoint, clock, duration_s, heartbeat, watch, signals);
@@ -154,6 +159,7 @@ int processMain(int argc,
   app.add_option("--config", options.config, "Experiment file; default: that of the experiment")
       ->check(CLI::ExistingFile)
       ->option_text("FILE");
+  app.add_option("--key", options.key, kKeyHelp)->option_text("FILE");
   app.add_flag("--realtime", options.realtime, "Pace by the wall clock instead of in lockstep");
   app.add_option("--duration", options.duration_s,
                  "End after this time; 0: run until SIGINT or SIGTERM")

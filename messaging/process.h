@@ -24,6 +24,7 @@ inline constexpr int kExitUsage = 2;
 struct ProcessOptions {
   std::string lcm_url = kDefaultLcmUrl;
   std::string config;  ///< experiment file
+  std::string key;  ///< file of the key that commands carry (messaging/command_key.h), empty: none
   bool realtime = false;
   std::string uncertainty;  ///< file of errors to inject; only the simulator reads it
   bool verbose = false;
@@ -42,7 +43,16 @@ int runOverLcm(Node& node,
                double duration_s = 0,
                double silence_limit = 0);
 
-/// The main() of every process: parses flags (CLI11; `--lcm-url --config --realtime --verbose
+/// The key in a file, or null where no file is named.
+/// @throw std::invalid_argument as CommandKey::read().
+std::shared_ptr<const CommandKey> keyOf(const std::string& path);
+
+/// The help text of `--key`.
+inline constexpr const char* kKeyHelp =
+    "File of the key that commands must carry (made by 'fastball key'), the same for all "
+    "processes; default: none";
+
+/// The main() of every process: parses flags (CLI11; `--lcm-url --config --key --realtime --verbose
 /// --duration --silence-limit --version`), connects, prints one line (name, version, URL), builds the node, runs
 /// it, and turns exceptions into one sentence on stderr and an exit status (2 for
 /// std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1).

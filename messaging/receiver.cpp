@@ -6,14 +6,6 @@
 #include <exception>
 
 namespace fastball::messaging {
-namespace {
-
-/// A fault that comes with every message must not fill the log.
-bool worthALine(int64_t count) {
-  return (count & (count - 1)) == 0;
-}
-
-}  // namespace
 
 void Receiver::deliver(const void* message) {
   countGap(type_->seq(message));

@@ -9,6 +9,11 @@
 
 namespace fastball::messaging {
 
+/// True for 1, 2, 4, 8, ...: a fault that comes with every message must not fill the log.
+inline bool worthALine(int64_t count) {
+  return (count & (count - 1)) == 0;
+}
+
 /// What every transport does with a checked message of one channel: number check, handlers, counts.
 class Receiver {
  public:
@@ -25,6 +30,8 @@ class Receiver {
   void deliver(const void* message);
   /// Counts a message that is not handed over, and says why at the 1st, 2nd, 4th, 8th, ... of them.
   void refuse(const std::string& why);
+  /// The same where somebody else says why.
+  void refuseSilently() { ++counts_->invalid; }
 
  private:
   void countGap(int64_t seq);

@@ -10,6 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "messaging/command_trailer.h"
+
 extern "C" {
 #define FASTBALL_TYPE(name) const lcm_type_info_t* name##_get_type_info(void);
 #include "lcmtypes/own_types.inc"
@@ -89,7 +91,11 @@ class MessageWalk {
     return true;
   }
 
-  bool atEnd() const { return left_ == 0; }
+  /// Nothing is left, but the trailer of a command.
+  bool atEnd() const {
+    return left_ == 0 ||
+           (left_ == kTrailerBytes && hasTrailer(next_, static_cast<std::size_t>(left_)));
+  }
   std::vector<MessageField> fields;
 
  private:

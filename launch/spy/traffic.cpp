@@ -7,6 +7,7 @@
 
 #include "logger/record_format.h"
 #include "logger/sequence_gaps.h"
+#include "messaging/command_trailer.h"
 
 namespace fastball::launch {
 namespace {
@@ -61,7 +62,9 @@ const Traffic::KnownType* Traffic::known(const void* data, std::size_t size) {
 }
 
 bool Traffic::decodes(const MessageLayout& layout, const void* data, std::size_t size) const {
-  return layout.bytes ? size == *layout.bytes : types_.fields(data, size).has_value();
+  if (!layout.bytes)
+    return types_.fields(data, size).has_value();
+  return size == *layout.bytes || messaging::withoutTrailer(data, size) == *layout.bytes;
 }
 
 /// Who sent it: where a channel has several senders, the process that a message names tells them apart.
