@@ -1,4 +1,5 @@
 #include "bench/contact_rows.h"
+#include "bench/key_rows.h"
 #include "bench/logger_rows.h"
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
@@ -16,9 +17,9 @@ namespace fastball::bench {
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
   for (const auto& some :
-       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), loggerBenchmarks(),
-        spyBenchmarks(), sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
-        planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), keyBenchmarks(),
+        loggerBenchmarks(), spyBenchmarks(), sceneBenchmarks(), visionBenchmarks(),
+        contactBenchmarks(), planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -140,21 +140,20 @@ std::string CommandGuard::words() const {
     case Fault::kNone:
       break;
     case Fault::kUntagged:
-      return fmt::format(
-          "{} without a tag: its sender has no --key, and LCM does not tell who it is", channel_);
+      return "has no tag: its sender has no --key, and LCM does not tell who that is";
     case Fault::kWrongTag:
       return fmt::format(
-          "{} whose tag is wrong: it claims to come from {}, which has another key, or it is "
-          "forged",
-          channel_, wordsOn(sender_));
+          "has a wrong tag: it claims to come from {}, which has another key, or it is forged",
+          wordsOn(sender_));
     case Fault::kRepeated:
-      return fmt::format("{} number {} of {} after its number {}: replayed, doubled or overtaken",
-                         channel_, sender_.counter, wordsOn(sender_), heard_);
+      return fmt::format("of {} has number {} after number {}: replayed, doubled or overtaken",
+                         wordsOn(sender_), sender_.counter, heard_);
     case Fault::kOtherTime:
       return fmt::format(
-          "{} of {}, whose time is {:.3f} s from this machine's (at most {} s): a recording, or "
-          "clocks that differ",
-          channel_, wordsOn(sender_),
+          "of {} was sent {:.3f} s from now by its sender's clock, above {} s: a recording, or "
+          "clocks "
+          "that differ",
+          wordsOn(sender_),
           kSeconds * (static_cast<double>(sender_.utime) - static_cast<double>(arrived_)),
           kMostApartUs / 1'000'000);
   }

@@ -55,7 +55,7 @@ class CommandGuard {
 
   /// `utime`: wall time of the arrival [us since 1970].
   Fault check(const void* data, std::size_t size, int64_t utime);
-  /// What was wrong with the message checked last, and whose it was or claims to be.
+  /// What was wrong with the message checked last, and whose it was or claims to be: "has a wrong tag: it claims ...".
   std::string words() const;
 
  private:

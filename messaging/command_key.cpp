@@ -102,7 +102,7 @@ CommandKey CommandKey::read(const std::string& path) {
   startSodium();
   std::string text = textOf(path);
   std::array<uint8_t, kBytes> bytes{};
-  const bool is_key = parse(text, bytes);
+  const bool is_key = text.size() < kMostFileBytes && parse(text, bytes);
   sodium_memzero(text.data(), text.size());
   if (!is_key)
     refuse(path, fmt::format("holds no key of {} bytes in hexadecimal or base64; `fastball key` "

@@ -26,14 +26,14 @@ constexpr const char* kReceiveBuffer = "recv_buf_size=4194304";
 class Refusals {
  public:
   void tell(const std::string& channel, int64_t count, const std::string& what) {
-    spdlog::warn("refused {} {}{}; this one: {}", count, channel, count == 1 ? "" : "s", what);
+    spdlog::warn("refused {} {}{}; this one {}", count, channel, count == 1 ? "" : "s", what);
     Channel& told = channels_[channel];
     if (told.count == 0)
       told.first = what;
     told.count = count;
     sentence_.clear();
     for (const auto& [name, refused] : channels_) {
-      sentence_ += fmt::format("{}refused {} {}{}; the first: {}", sentence_.empty() ? "" : "; ",
+      sentence_ += fmt::format("{}refused {} {}{}; the first {}", sentence_.empty() ? "" : "; ",
                                refused.count, name, refused.count == 1 ? "" : "s", refused.first);
     }
   }
@@ -285,7 +285,7 @@ bool LcmEndpoint::publishErased(const char* channel,
                                 const MessageType& type) {
   const bool is_signed = impl_->signs(channel);
   const std::size_t trailer = is_signed ? kTrailerBytes : 0;
-  if (const auto why = refusal(channel, max_bytes - trailer, message, type)) {
+  if (const auto why = refusal(channel, max_bytes - std::min(max_bytes, trailer), message, type)) {
     impl_->unsent.add(*why);
     return false;
   }

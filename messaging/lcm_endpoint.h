@@ -50,7 +50,7 @@ class LcmEndpoint : public Endpoint {
   bool publishBytes(const std::string& channel, const void* data, std::size_t size);
   /// The same, but with this endpoint's key, if it has one, a command gets a trailer of its own, in place of one that it has.
   bool publishRecorded(const std::string& channel, const void* data, std::size_t size);
-  /// "refused 4 ARM_COMMANDs; the first ... without a tag: ...", of each command channel on which the key kept any out; renewed at
+  /// "refused 4 ARM_COMMANDs; the first has no tag: ...", of each command channel on which the key kept any out; renewed at
   /// the 1st, 2nd, 4th, ... of them; or empty.
   const std::string& refusals() const;
   /// That of the key (CommandKey::id()), or empty.

@@ -99,12 +99,18 @@ void logToStandardError(const std::string& name, bool verbose) {
   spdlog::set_level(verbose ? spdlog::level::debug : spdlog::level::info);
 }
 
+/// A trailer has room for "vision-tracker".
+std::string withoutPrefix(const std::string& name) {
+  const std::string prefix = "fastball-";
+  return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
+}
+
 int runProcess(const std::string& name, const ProcessOptions& options, const MakeNode& make_node) {
   logToStandardError(name, options.verbose);
   std::signal(SIGPIPE, SIG_IGN);
   // From here on a signal ends the process in order, also while its parts are being built.
   const StopSignals signals;
-  LcmEndpoint endpoint(options.lcm_url, keyOf(options.key), name);
+  LcmEndpoint endpoint(options.lcm_url, keyOf(options.key), withoutPrefix(name));
   fmt::print("{} {} on {}\n", name, version(), endpoint.url());
   std::fflush(stdout);
   const SystemClock clock;

@@ -127,6 +127,29 @@ TEST_F(HeartbeatTest, LastWordsAreKnownAsSuch) {
   EXPECT_EQ(heard[0].state, "ended");
 }
 
+TEST_F(HeartbeatTest, NamesTheKeyBehindTheVersion) {
+  Heartbeat keyed(endpoint, clock, node, Heartbeat::kPeriod, "0123abcd");
+  keyed.update(0);
+  heartbeat.update(0);
+  listener.drain();
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[0].version, std::string(version()) + ", key 0123abcd");
+  EXPECT_EQ(keyIdOf(heard[0]), "0123abcd");
+  EXPECT_EQ(keyIdOf(heard[1]), "");
+}
+
+TEST_F(HeartbeatTest, ARemarkIsSaidAtOnceBehindTheDetail) {
+  node.node_state.detail = "throw 3";
+  update();
+  heartbeat.remark("refused 1 SCENE");
+  ASSERT_EQ(update(), 1U);
+  EXPECT_EQ(heard[0].detail, "throw 3; refused 1 SCENE");
+  EXPECT_EQ(update(), 0U);
+  node.node_state.detail.clear();
+  ASSERT_EQ(update(), 1U);
+  EXPECT_EQ(heard[0].detail, "refused 1 SCENE");
+}
+
 TEST_F(HeartbeatTest, LastWordsNameTheFailure) {
   heartbeat.sayLast("the disk is full");
   listener.drain();
