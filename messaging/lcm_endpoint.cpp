@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -194,7 +195,7 @@ struct LcmEndpoint::Impl {
   std::unique_ptr<lcm_t, void (*)(lcm_t*)> lcm;
   void makeRoom(std::size_t bytes) { send_buffer.resize(std::max(send_buffer.size(), bytes)); }
   /// True where a message gets a trailer.
-  bool signs(const std::string& channel) const { return signer && isCommandChannel(channel); }
+  bool signs(std::string_view channel) const { return signer && isCommandChannel(channel); }
   /// Signs what is in send_buffer and sends it.
   bool publishSigned(LcmEndpoint& endpoint, const std::string& channel, std::size_t size) {
     signer->sign(channel, send_buffer.data(), size, clock.wallUs());

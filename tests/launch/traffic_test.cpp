@@ -12,6 +12,7 @@
 #include <random>
 
 #include "launch/spy/traffic_text.h"
+#include "messaging/command_trailer.h"
 #include "tests/messaging/examples.h"
 
 namespace fastball::launch {
@@ -206,6 +207,22 @@ TEST_F(TrafficTest, ChannelsHaveTypeCountAndAge) {
   EXPECT_NEAR(reports[0].age, 0.5, 1e-9);
   EXPECT_NEAR(reports[1].age, 0.501, 1e-9);
   EXPECT_NEAR(of("ARM_STATE").rate, 500, 1e-6);
+}
+
+TEST_F(TrafficTest, CommandsWithATrailerAreMessagesLikeOthers) {
+  for (const int64_t seq : {0, 1, 4}) {
+    arm_command_t command = example<arm_command_t>();
+    command.seq = seq;
+    std::vector<char> bytes = encoded(command);
+    const std::size_t size = bytes.size();
+    bytes.resize(size + messaging::kTrailerBytes, 'x');
+    messaging::kTrailerMark.copy(bytes.data() + size, messaging::kTrailerMark.size());
+    hear("ARM_COMMAND", bytes);
+  }
+  EXPECT_EQ(of("ARM_COMMAND").type, "fastball_arm_command_t");
+  EXPECT_EQ(of("ARM_COMMAND").undecodable, 0);
+  EXPECT_EQ(of("ARM_COMMAND").lost, 2);
+  EXPECT_FALSE(traffic_.newestFields("ARM_COMMAND").empty());
 }
 
 TEST_F(TrafficTest, GapsInSeqAreLostMessages) {

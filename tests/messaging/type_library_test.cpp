@@ -12,6 +12,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "messaging/command_trailer.h"
 #include "tests/messaging/examples.h"
 
 namespace fastball::messaging {
@@ -66,6 +67,23 @@ TEST(OwnTypes, EveryMemberOfAMessageHasItsNameAndValue) {
   EXPECT_EQ(valueOf(*fields, "q[2]"), "0.1");
   EXPECT_EQ(valueOf(*fields, "q[4]"), "(none)");
   EXPECT_EQ(valueOf(*fields, "q"), "(none)");
+}
+
+TEST(OwnTypes, ACommandWithATrailerHasTheSameMembersAndOtherBytesBehindItAreNoMessage) {
+  const TypeLibrary library;
+  auto bytes = encoded(examples::example<swing_plan_t>());
+  const auto bare = library.fields(bytes.data(), bytes.size());
+  const std::size_t size = bytes.size();
+  bytes.resize(size + kTrailerBytes, 'x');
+  EXPECT_FALSE(library.fields(bytes.data(), bytes.size()));
+  kTrailerMark.copy(bytes.data() + size, kTrailerMark.size());
+  const auto fields = library.fields(bytes.data(), bytes.size());
+  ASSERT_TRUE(bare && fields);
+  EXPECT_EQ(fields->size(), bare->size());
+  EXPECT_EQ(valueOf(*fields, "q[2][3]"), "0.25");
+  EXPECT_FALSE(library.fields(bytes.data(), bytes.size() - 1));
+  bytes.push_back('x');
+  EXPECT_FALSE(library.fields(bytes.data(), bytes.size()));
 }
 
 TEST(OwnTypes, ArraysHaveTheLengthThatTheMessageSays) {
