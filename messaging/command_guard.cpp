@@ -135,6 +135,10 @@ CommandGuard::Session& CommandGuard::roomForOne() {
   return oldest;
 }
 
+std::string CommandGuard::sender() const {
+  return fault_ == Fault::kNone ? wordsOn(sender_) : "";
+}
+
 std::string CommandGuard::words() const {
   switch (fault_) {
     case Fault::kNone:

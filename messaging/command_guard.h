@@ -57,6 +57,8 @@ class CommandGuard {
   Fault check(const void* data, std::size_t size, int64_t utime);
   /// What was wrong with the message checked last, and whose it was or claims to be: "has a wrong tag: it claims ...".
   std::string words() const;
+  /// Who said the message checked last, if it was let in: "controller (process 12 on robot)".
+  std::string sender() const;
 
  private:
   struct Session {

@@ -51,6 +51,10 @@ class Endpoint {
   /// @return how many messages were handled, invalid ones included.
   virtual int drain() = 0;
 
+  /// Inside a handler: who said the message, such as "controller (process 12 on robot)", where a key vouches for it
+  /// (messaging/command_guard.h); else empty.
+  virtual std::string sender() const { return ""; }
+
   /// Counts of each channel subscribed to.
   virtual const std::map<std::string, ReceiveCounts>& counts() const = 0;
   /// Messages that publish() could not send.

@@ -49,18 +49,24 @@ class Refusals {
   std::string sentence_;
 };
 
+/// What the subscriptions of an endpoint with a key tell it.
+struct Entrance {
+  Refusals refusals;
+  const CommandGuard* passed = nullptr;  ///< who let in the message that is being handled
+};
+
 /// LCM's face of one subscription to a typed channel.
 class TypedSubscription {
  public:
-  /// `key`: null for none. What it keeps out is told in `refusals`, under `channel`.
+  /// `key`: null for none. What it keeps out is told in `entrance`, under `channel`.
   TypedSubscription(Receiver receiver,
                     const std::string& channel,
                     const std::shared_ptr<const CommandKey>& key,
-                    Refusals& refusals)
+                    Entrance& entrance)
       : receiver_(std::move(receiver)),
         message_(receiver_.type().make()),
         is_command_(isCommandChannel(channel)),
-        refusals_(refusals) {
+        entrance_(entrance) {
     if (key && is_command_)
       guard_.emplace(key, channel);
   }
@@ -79,7 +85,9 @@ class TypedSubscription {
       } else if (const auto broken = type.fault(message_.get())) {
         receiver_.refuse(*broken);
       } else {
+        entrance_.passed = guard_ ? &*guard_ : nullptr;
         receiver_.deliver(message_.get());
+        entrance_.passed = nullptr;
       }
     } catch (const std::exception& error) {
       receiver_.refuse(fmt::format("{}: {}", channel, error.what()));
@@ -93,7 +101,7 @@ class TypedSubscription {
       return true;
     receiver_.refuseSilently();
     if (worthALine(++kept_out_))
-      refusals_.tell(channel, kept_out_, guard_->words());
+      entrance_.refusals.tell(channel, kept_out_, guard_->words());
     return false;
   }
 
@@ -102,7 +110,7 @@ class TypedSubscription {
   bool is_command_;
   std::optional<CommandGuard> guard_;
   int64_t kept_out_ = 0;
-  Refusals& refusals_;
+  Entrance& entrance_;
 };
 
 /// LCM's face of one subscription to undecoded channels.
@@ -206,7 +214,7 @@ struct LcmEndpoint::Impl {
   std::shared_ptr<const CommandKey> key;
   std::optional<CommandSigner> signer;
   SystemClock clock;
-  Refusals refusals;
+  Entrance entrance;
   std::map<std::string, ReceiveCounts> counts;
   std::map<std::string, TypedSubscription> typed;
   std::vector<std::unique_ptr<RawSubscription>> raw;
@@ -268,7 +276,11 @@ bool LcmEndpoint::publishRecorded(const std::string& channel, const void* data, 
 }
 
 const std::string& LcmEndpoint::refusals() const {
-  return impl_->refusals.sentence();
+  return impl_->entrance.refusals.sentence();
+}
+
+std::string LcmEndpoint::sender() const {
+  return impl_->entrance.passed != nullptr ? impl_->entrance.passed->sender() : "";
 }
 
 std::string LcmEndpoint::keyId() const {
@@ -309,7 +321,7 @@ void LcmEndpoint::subscribeErased(const char* channel,
   if (entry == impl_->typed.end()) {
     Receiver receiver(channel, one_sender, type, impl_->counts[channel]);
     entry =
-        impl_->typed.try_emplace(channel, std::move(receiver), channel, impl_->key, impl_->refusals)
+        impl_->typed.try_emplace(channel, std::move(receiver), channel, impl_->key, impl_->entrance)
             .first;
     impl_->subscribe(channel, entry->second);
   }

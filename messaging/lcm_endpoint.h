@@ -42,6 +42,7 @@ class LcmEndpoint : public Endpoint {
   static constexpr int kDrainLimit = 10000;
   const std::map<std::string, ReceiveCounts>& counts() const override;
   int64_t unsent() const override;
+  std::string sender() const override;
 
   const std::string& url() const;
   /// File descriptor that becomes readable when messages wait.

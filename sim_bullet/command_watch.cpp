@@ -30,19 +30,13 @@ void CommandWatch::stateSaid(int64_t tick) {
   ++states_;
 }
 
-bool CommandWatch::accepts(const Stamp& stamp) {
-  const std::string fault = faultOf(stamp);
-  if (!fault.empty()) {
-    refuse(fault);
-    return false;
-  }
+void CommandWatch::take(const Stamp& stamp) {
   if (stamp.scene_id == scene_ && (!any_ || stamp.seq > last_.seq)) {
     any_ = true;
     last_ = stamp;
     last_words_ = words_;
     states_ = 0;
   }
-  return true;
 }
 
 std::string CommandWatch::faultOf(const Stamp& stamp) const {
@@ -69,11 +63,11 @@ std::string CommandWatch::faultOf(const Stamp& stamp) const {
   return "";
 }
 
-void CommandWatch::refuse(const std::string& fault) {
+void CommandWatch::refuse(const std::string& fault, const std::string& sender) {
   if (++refused_ == 1)
-    first_fault_ = fault;
+    first_fault_ = sender.empty() ? " " + fault : fmt::format(", of {}, {}", sender, fault);
   if (isPowerOfTwo(refused_)) {
-    sentence_ = fmt::format("refused {} {}{} of a second sender; the first {}", refused_, channel_,
+    sentence_ = fmt::format("refused {} {}{} of a second sender; the first{}", refused_, channel_,
                             refused_ == 1 ? "" : "s", first_fault_);
   }
 }

@@ -16,19 +16,25 @@ class CommandWatch {
   void beginScene(int64_t scene_id);
   /// A state of this tick was said, which may be answered once more.
   void stateSaid(int64_t tick);
-  /// @return false if the command is not of the sender that has the scene. One that is merely late is accepted.
-  template <class Command>
-  bool accepts(Command command) {
+  /// @return false if the command is not of the sender that has the scene. One that is merely late is accepted. `sender()`: who it
+  /// is, as far as that is known.
+  template <class Command, class Sender>
+  bool accepts(Command command, const Sender& sender) {
     const Stamp stamp{command.scene_id, command.tick, command.seq};
     command.seq = 0;
     words_.resize(static_cast<std::size_t>(command.getEncodedSize()));
     command.encode(words_.data(), 0, static_cast<int>(words_.size()));
-    return accepts(stamp);
+    const std::string fault = faultOf(stamp);
+    if (fault.empty())
+      take(stamp);
+    else
+      refuse(fault, sender());
+    return fault.empty();
   }
 
   /// Commands refused in this scene, or before the first.
   int64_t refused() const { return refused_; }
-  /// "refused 4 ARM_COMMANDs of a second sender; the first ...", renewed at the 1st, 2nd, 4th, 8th, ... of them; or empty.
+  /// "refused 4 ARM_COMMANDs of a second sender; the first, of controller (process 12 on robot), has seq ...", renewed at the 1st, 2nd, 4th, 8th, ... of them; or empty.
   const std::string& sentence() const { return sentence_; }
 
  private:
@@ -37,9 +43,9 @@ class CommandWatch {
     int64_t tick = 0;
     int64_t seq = 0;
   };
-  bool accepts(const Stamp& stamp);
+  void take(const Stamp& stamp);
   std::string faultOf(const Stamp& stamp) const;
-  void refuse(const std::string& fault);
+  void refuse(const std::string& fault, const std::string& sender);
 
   std::string channel_;
   int64_t scene_ = 0;  ///< 0: none yet

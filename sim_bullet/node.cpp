@@ -71,7 +71,8 @@ SimulatorSetup loadSetup(const messaging::ProcessOptions& options) {
 SimNode::SimNode(messaging::Endpoint& endpoint,
                  const messaging::Clock& clock,
                  const SimulatorSetup& setup)
-    : clock_(clock),
+    : endpoint_(endpoint),
+      clock_(clock),
       setup_(setup),
       arm_states_(endpoint, messaging::kArmState),
       hand_states_(endpoint, messaging::kHandState),
@@ -98,7 +99,7 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
 
 template <class Command>
 void SimNode::take(const Command& message, CommandWatch& watch, std::optional<Command>* newest) {
-  const bool one_sender = watch.accepts(message);
+  const bool one_sender = watch.accepts(message, [this] { return endpoint_.sender(); });
   const bool this_scene = running() && message.scene_id == message_.scene_id;
   const int64_t tick = this_scene ? scene_->tick() : 0;
   const bool fits = setup_.realtime

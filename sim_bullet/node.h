@@ -77,6 +77,7 @@ class SimNode : public messaging::Node {
   TickStamp stamp() const;
   bool running() const { return scene_ != nullptr; }
 
+  const messaging::Endpoint& endpoint_;
   const messaging::Clock& clock_;
   SimulatorSetup setup_;
   std::unique_ptr<CameraRig> cameras_;

@@ -1,6 +1,8 @@
 // Commands over LCM between endpoints with one key, with another one, and with none.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <numeric>
@@ -68,6 +70,21 @@ TEST_F(KeyedEndpoint, HearsWhoHasTheKey) {
   EXPECT_EQ(invalid(), 0);
   EXPECT_EQ(robot_.refusals(), "");
   EXPECT_EQ(robot_.keyId(), sender.keyId());
+}
+
+TEST_F(KeyedEndpoint, KnowsWhoSaysACommandWhileItIsHandled) {
+  LcmEndpoint sender(defaultLcmUrl(), key_, "hand-server");
+  std::vector<std::string> senders;
+  robot_.subscribe<hand_command_t>(kHandCommand,
+                                   [&](const auto&) { senders.push_back(robot_.sender()); });
+  robot_.subscribe<hand_state_t>(kHandState,
+                                 [&](const auto&) { senders.push_back(robot_.sender()); });
+  sender.publish(kHandCommand, example<hand_command_t>());
+  sender.publish(kHandState, example<hand_state_t>());
+  ASSERT_TRUE(drainUntil([&] { return senders.size() == 2; }));
+  EXPECT_THAT(senders[0], HasSubstr(fmt::format("hand-server (process {} on ", getpid())));
+  EXPECT_EQ(senders[1], "") << "nothing vouches for a state";
+  EXPECT_EQ(robot_.sender(), "");
 }
 
 TEST_F(KeyedEndpoint, RefusesCountsAndNamesWhoHasNot) {

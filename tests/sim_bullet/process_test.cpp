@@ -1,6 +1,7 @@
 // The simulator as a real process, against scripted peers over LCM.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <limits>
@@ -106,6 +107,42 @@ TEST_F(Process, SurvivesHostileBytes) {
   peers_.answers_arm = true;
   ASSERT_TRUE(waitFor([this] { return heartbeat_.state == "finished"; }));
   EXPECT_GE(heartbeat_.invalid, 7);
+}
+
+TEST(KeyedSimulator, NamesASecondControllerByProcessAndHost) {
+  const config::TemporaryFolder folder;
+  const std::string path = (folder.path() / "a.key").string();
+  const auto key = std::make_shared<const messaging::CommandKey>(messaging::CommandKey::make(path));
+  ChildProcess process({kProgram, "--config", kExperimentFile, "--key", path});
+  messaging::LcmEndpoint endpoint(messaging::defaultLcmUrl(), key, "controller");
+  messaging::LcmEndpoint other(messaging::defaultLcmUrl(), key, "second");
+  ScriptedPeers peers(endpoint), second(other);
+  peers.answers_hand = second.answers_hand = false;  // the scene stays at its first tick
+  second.push = 5;
+  heartbeat_t heartbeat{};
+  endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat,
+                                  [&](const heartbeat_t& m) { heartbeat = m; });
+  const auto waitFor = [&](const auto& done, bool with_second) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!done() && std::chrono::steady_clock::now() < end) {
+      endpoint.drain();
+      if (with_second)
+        other.drain();
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    return done();
+  };
+  ASSERT_TRUE(waitFor([&] { return heartbeat.state == "idle"; }, false)) << process.output();
+  scene_t scene = sceneMessage(1, 0.1);
+  scene.camera_end = scene.camera_start;
+  peers.sendScene(scene);
+  ASSERT_TRUE(waitFor([&] { return peers.arm_states.size() >= 3; }, false));
+  ASSERT_TRUE(waitFor(
+      [&] { return heartbeat.detail.find("of a second sender") != std::string::npos; }, true));
+  EXPECT_THAT(heartbeat.detail,
+              AllOf(HasSubstr("the first, of second (process " + std::to_string(getpid()) + " on "),
+                    HasSubstr("differs from the one before about tick 0")));
+  EXPECT_EQ(heartbeat.invalid, 0);
 }
 
 TEST(ProcessStart, BadFilesEndWithStatusTwoAndTheirPlace) {
