@@ -226,7 +226,8 @@ void ExperimentNode::fail(const std::string& sentence) {
 void ExperimentNode::stop(const std::string& reason) {
   estop_t estop{};
   estop.utime = status_.utime;
-  estop.reason = reason;
+  // Other processes' words are in it: an ESTOP that is too long would not be said.
+  estop.reason = messaging::shortened(reason);
   estops_.publish(estop);
   fail(reason);
 }

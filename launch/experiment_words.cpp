@@ -79,22 +79,25 @@ std::string ExperimentNode::withoutOrder() const {
 }
 
 std::string ExperimentNode::waitingFor() const {
+  // Why somebody does not answer is often what it says: that it refuses what it hears, for example.
+  const auto words = [this](const std::string& name) {
+    const heartbeat_t* heartbeat = roster_.newest(name);
+    const bool speaks = heartbeat != nullptr && !heartbeat->detail.empty();
+    return speaks ? fmt::format(" ({}: {})", name, heartbeat->detail) : "";
+  };
   switch (phase_) {
     case Phase::kPlanning:
       return plan_ ? "the plan was not taken by " + withoutPlan()
-                   : "the planner did not answer PLAN_REQUEST";
+                   : "the planner did not answer PLAN_REQUEST" + words("planner");
     case Phase::kArming:
       return "THROW_START was not taken by " + withoutOrder();
     case Phase::kStarting:
-      return "sim_bullet did not answer SCENE";
-    default: {
-      const heartbeat_t* robot = roster_.newest("sim_bullet");
-      const bool speaks = robot != nullptr && !robot->detail.empty();
+      return "sim_bullet did not answer SCENE" + words("sim_bullet");
+    default:
       return fmt::format(
           "the scene stopped at {:.3f} s{}",
           static_cast<double>(status_.utime - sceneUtime(settings_, number_)) / kMicro,
-          speaks ? " (sim_bullet: " + robot->detail + ")" : "");
-    }
+          words("sim_bullet"));
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <lcm/lcm.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -17,37 +16,12 @@
 #include "messaging/command_guard.h"
 #include "messaging/multicast_check.h"
 #include "messaging/receiver.h"
+#include "messaging/refusals.h"
 
 namespace fastball::messaging {
 namespace {
 
 constexpr const char* kReceiveBuffer = "recv_buf_size=4194304";
-
-/// What the key kept out, in words.
-class Refusals {
- public:
-  void tell(const std::string& channel, int64_t count, const std::string& what) {
-    spdlog::warn("refused {} {}{}; this one {}", count, channel, count == 1 ? "" : "s", what);
-    Channel& told = channels_[channel];
-    if (told.count == 0)
-      told.first = what;
-    told.count = count;
-    sentence_.clear();
-    for (const auto& [name, refused] : channels_) {
-      sentence_ += fmt::format("{}refused {} {}{}; the first {}", sentence_.empty() ? "" : "; ",
-                               refused.count, name, refused.count == 1 ? "" : "s", refused.first);
-    }
-  }
-  const std::string& sentence() const { return sentence_; }
-
- private:
-  struct Channel {
-    int64_t count = 0;
-    std::string first;
-  };
-  std::map<std::string, Channel> channels_;
-  std::string sentence_;
-};
 
 /// What the subscriptions of an endpoint with a key tell it.
 struct Entrance {

@@ -147,6 +147,15 @@ TEST_F(ExperimentNodeTest, AThrowThatStopsIsNamedWithWhatTheRobotSaysOfIt) {
   EXPECT_THAT(experiment.error(), HasSubstr("(sim_bullet: refused 1 ARM_COMMAND"));
 }
 
+TEST_F(ExperimentNodeTest, APlannerThatDoesNotAnswerIsQuoted) {
+  peers.plans = false;
+  peers.planner.own_state = {"idle", "refused 1 PLAN_REQUEST", 0};
+  EXPECT_FALSE(flow());
+  wait(30.1);
+  EXPECT_TRUE(flow());
+  EXPECT_THAT(experiment.error(), HasSubstr("(planner: refused 1 PLAN_REQUEST)"));
+}
+
 TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
   peers.measures = false;
   EXPECT_FALSE(flow());
