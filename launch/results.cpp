@@ -103,7 +103,8 @@ std::string throwLine(const JudgedThrow& judged) {
 
 void writeJson(const nlohmann::json& object, const std::string& path) {
   std::ofstream file(path);
-  file << object.dump(2) << '\n';
+  // Notes come from other processes, whose bytes may be no UTF-8.
+  file << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   file.close();
   if (!file)
     throw std::runtime_error(fmt::format("cannot write {}", path));

@@ -7,6 +7,7 @@
 
 #include "logger/record_format.h"
 #include "messaging/command_trailer.h"
+#include "messaging/message_type.h"
 
 namespace fastball::logger {
 
@@ -16,11 +17,11 @@ struct LogEntry {
   std::string channel;
   std::vector<char> data;
 
-  /// Decodes into T. @return false if the bytes are not a T from first to last, but for a command's trailer.
+  /// Decodes into T. @return false if the bytes are not a T from first to last, but for a command's trailer. Any bytes are safe.
   template <class T>
   bool decode(T& message) const {
     const int size = static_cast<int>(messaging::withoutTrailer(data.data(), data.size()));
-    return message.decode(data.data(), 0, size) == size;
+    return messaging::messageType<T>().decode(&message, data.data(), size) == size;
   }
 };
 

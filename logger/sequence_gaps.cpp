@@ -1,11 +1,11 @@
 #include "logger/sequence_gaps.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "logger/record_format.h"
+#include "messaging/sequence_step.h"
 
 namespace fastball::logger {
 namespace {
@@ -47,10 +47,7 @@ int64_t SequenceGaps::missingBefore(const std::string& channel,
   const int64_t seq = int64At(static_cast<const char*>(data) + kSeqOffset);
   const auto [entry, is_first] = last_.try_emplace(channel, seq);
   const int64_t last = std::exchange(entry->second, seq);
-  int64_t step = 0;
-  if (is_first || __builtin_sub_overflow(seq, last, &step))
-    return 0;
-  return std::max<int64_t>(step - 1, 0);
+  return is_first ? 0 : messaging::missingBetween(last, seq);
 }
 
 }  // namespace fastball::logger

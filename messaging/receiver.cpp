@@ -5,6 +5,8 @@
 
 #include <exception>
 
+#include "messaging/sequence_step.h"
+
 namespace fastball::messaging {
 
 void Receiver::deliver(const void* message) {
@@ -31,8 +33,8 @@ void Receiver::countGap(int64_t seq) {
     return;
   if (any_ && seq <= last_seq_)
     ++counts_->repeated;
-  if (any_ && seq > last_seq_)
-    counts_->lost += seq - last_seq_ - 1;
+  if (any_)
+    counts_->lost += missingBetween(last_seq_, seq);
   // Also after a step back: a sender that was started again begins at 0.
   any_ = true;
   last_seq_ = seq;

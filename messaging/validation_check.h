@@ -50,6 +50,17 @@ class Check {
     return finiteArray(field, values.data(), values.size());
   }
 
+  /// Finite and no further from zero than `limit`.
+  template <std::size_t N>
+  Check& bounded(const char* field, const double (&values)[N], double limit) {
+    finite(field, values);
+    for (std::size_t i = 0; i < N; ++i) {
+      if (!fault_ && std::abs(values[i]) > limit)
+        fail("{}[{}] is {}, beyond {}", field, i, values[i], limit);
+    }
+    return *this;
+  }
+
   /// For counts, identities and times.
   Check& notNegative(const char* field, int64_t value) { return atLeast(field, value, int64_t{0}); }
   Check& enumeration(const char* field, int value, int first, int last) {

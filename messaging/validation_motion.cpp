@@ -5,6 +5,11 @@ namespace {
 
 constexpr int32_t kMaxSamples = 1000;
 constexpr int32_t kMaxParameters = 200;
+// Beyond anything that a joint measures; with them, what is computed of a state stays finite.
+constexpr double kFarthestJoint = 1e3;    // [rad]
+constexpr double kFastestJoint = 1e4;     // [rad/s]
+constexpr double kStrongestJoint = 1e6;   // [Nm]
+constexpr double kStrongestFinger = 1e6;  // [N]
 
 template <class T>
 Check& target(Check& check, const T& m) {
@@ -37,7 +42,10 @@ std::optional<std::string> fault(const arm_state_t& m) {
   check.stamp(m);
   check.notNegative("scene_id", m.scene_id);
   check.notNegative("tick", m.tick);
-  return check.finite("q", m.q).finite("qd", m.qd).finite("tau", m.tau).fault();
+  return check.bounded("q", m.q, kFarthestJoint)
+      .bounded("qd", m.qd, kFastestJoint)
+      .bounded("tau", m.tau, kStrongestJoint)
+      .fault();
 }
 
 std::optional<std::string> fault(const arm_command_t& m) {
@@ -55,10 +63,11 @@ std::optional<std::string> fault(const hand_state_t& m) {
   check.stamp(m);
   check.notNegative("scene_id", m.scene_id);
   check.notNegative("tick", m.tick);
-  return check.finite("q", m.q)
-      .finite("qd", m.qd)
-      .finite("tau", m.tau)
+  return check.bounded("q", m.q, kFarthestJoint)
+      .bounded("qd", m.qd, kFastestJoint)
+      .bounded("tau", m.tau, kStrongestJoint)
       .positiveOrZero("f_normal", m.f_normal)
+      .bounded("f_normal", m.f_normal, kStrongestFinger)
       .finite("f_tangential", m.f_tangential)
       .fault();
 }

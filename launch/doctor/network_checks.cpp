@@ -195,9 +195,10 @@ Findings checkOthers(const std::string& lcm_url) {
   endpoint.subscribeRaw(
       "HEARTBEAT", [&](const std::string&, const void* data, std::size_t size, int64_t utime) {
         heartbeat_t m{};
-        if (m.decode(data, 0, static_cast<int>(size)) != static_cast<int>(size))
+        if (messaging::messageType<heartbeat_t>().decode(&m, data, static_cast<int>(size)) < 0 ||
+            messaging::fault(m))
           return;
-        const double offset = static_cast<double>(utime - m.utime) * 1e-6;
+        const double offset = (static_cast<double>(utime) - static_cast<double>(m.utime)) * 1e-6;
         const auto [other, is_new] = others.try_emplace(
             fmt::format("{} ({}, process {})", m.name, m.host, m.pid), Other{m.host, offset});
         if (!is_new && std::abs(offset) < std::abs(other->second.offset))

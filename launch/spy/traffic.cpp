@@ -8,6 +8,7 @@
 #include "logger/record_format.h"
 #include "logger/sequence_gaps.h"
 #include "messaging/command_trailer.h"
+#include "messaging/sequence_step.h"
 
 namespace fastball::launch {
 namespace {
@@ -95,13 +96,7 @@ void Traffic::countGap(Channel& channel, int64_t seq, const std::string& sender)
     channel.lost = channel.lost.value_or(0);
     return;
   }
-  // A step back is a sender that began again, and is no gap.
-  int64_t step = 0;
-  if (__builtin_sub_overflow(seq, std::exchange(last->second, seq), &step) || step <= 1)
-    return;
-  int64_t sum = 0;
-  if (!__builtin_add_overflow(*channel.lost, step - 1, &sum))
-    channel.lost = sum;
+  *channel.lost += messaging::missingBetween(std::exchange(last->second, seq), seq);
 }
 
 void Traffic::nameUndecodable(Channel& channel,

@@ -1,0 +1,15 @@
+#include "controller/node.h"
+#include "tests/fuzz/node_target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
+  using namespace fastball;
+  static bool realtime = false;
+  static fuzz::NodeTarget target("controller", 500, [](auto& endpoint, const auto& clock) {
+    messaging::ProcessOptions options;
+    options.config = fuzz::experimentPath();
+    options.realtime = realtime = !realtime;
+    return controller::makeNode(endpoint, clock, options);
+  });
+  target.hear(data, size);
+  return 0;
+}

@@ -1,0 +1,187 @@
+// Writes what the fuzzers begin with: FOLDER/TARGET/NAME, made of the genuine messages of a throw.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "launch/local_run.h"
+#include "logger/log_writer.h"
+#include "messaging/channels.h"
+#include "tests/fuzz/conversation.h"
+#include "tests/messaging/examples.h"
+
+namespace fastball::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint8_t kMillisecond = 3;     // a pause
+constexpr std::size_t kWindow = 24;     // messages of one conversation
+constexpr int kWindows = 6;             // spread over the throw
+constexpr double kThumbnail = 1.0 / 8;  // of the cameras' images: decoded in a fraction of the time
+
+template <class T>
+Said said(const std::string& channel, const T& message) {
+  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return {channel, kMillisecond, bytes};
+}
+
+/// Everything that is said in one throw, in its order, and what no good throw says.
+class Recording {
+ public:
+  Recording() {
+    launch::RunOptions options;
+    options.throws = 1;
+    options.no_network = true;
+    const launch::RunSetup setup = launch::prepareRun(options);
+    launch::Progress progress(true);
+    launch::RunResult result;
+    launch::runInOneProcess(setup, progress, result, [this](messaging::Endpoint& e) { listen(e); });
+    if (!result.error.empty())
+      throw std::runtime_error(result.error);
+    namespace examples = messaging::examples;
+    all_.push_back(said("ESTOP", examples::example<estop_t>()));
+    all_.push_back(said("LOGGER_STATUS", examples::example<logger_status_t>()));
+  }
+
+  /// What one target hears of it.
+  std::vector<Said> of(const std::vector<std::string>& channels) const {
+    std::vector<Said> heard;
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(heard), [&](const Said& one) {
+      return std::find(channels.begin(), channels.end(), one.channel) != channels.end();
+    });
+    return heard;
+  }
+
+ private:
+  template <class T>
+  void keep(messaging::Endpoint& endpoint, const messaging::Channel<T>& channel) {
+    endpoint.subscribe<T>(channel,
+                          [this, channel](const T& m) { all_.push_back(said(channel.name, m)); });
+  }
+
+  /// Images and calibrations as they are, and small.
+  void keepSmall(messaging::Endpoint& endpoint, const messaging::Channel<image_t>& channel) {
+    endpoint.subscribe<image_t>(channel, [this, channel](image_t m) {
+      const cv::Mat whole = cv::imdecode(m.data, cv::IMREAD_GRAYSCALE);
+      cv::Mat small;
+      cv::resize(whole, small, {}, kThumbnail, kThumbnail, cv::INTER_AREA);
+      m.width = m.row_stride = small.cols;
+      m.height = small.rows;
+      cv::imencode(".jpg", small, m.data);
+      m.size = static_cast<int32_t>(m.data.size());
+      all_.push_back(said(channel.name, m));
+    });
+  }
+
+  void listen(messaging::Endpoint& e) {
+    using namespace messaging;
+    keep(e, kArmState);
+    keep(e, kArmCommand);
+    keep(e, kHandState);
+    keep(e, kHandCommand);
+    keep(e, kScene);
+    keep(e, kThrowStart);
+    keep(e, kPlanRequest);
+    keep(e, kSwingPlan);
+    keep(e, kControllerStatus);
+    keep(e, kRelease);
+    keep(e, kSimTruth);
+    keep(e, kBallObservation);
+    keep(e, kBallTrack);
+    keep(e, kLanding);
+    keep(e, kHeartbeat);
+    keepSmall(e, kCameraLeft);
+    keepSmall(e, kCameraRight);
+    e.subscribe<camera_info_t>(kCameraInfo, [this](camera_info_t m) {
+      m.width = static_cast<int32_t>(m.width * kThumbnail);
+      m.height = static_cast<int32_t>(m.height * kThumbnail);
+      for (const int i : {0, 2, 4, 5})
+        m.K[i] *= kThumbnail;
+      all_.push_back(said(kCameraInfo.name, m));
+    });
+  }
+
+  std::vector<Said> all_;
+};
+
+void write(const fs::path& path, const Bytes& bytes) {
+  fs::create_directories(path.parent_path());
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush())
+    throw std::runtime_error(fmt::format("cannot write {}", path.string()));
+}
+
+/// Conversations for a target: the first message of each channel, and windows on the throw, each begun by these first messages.
+std::vector<std::vector<Said>> conversations(const std::vector<Said>& heard) {
+  std::map<std::string, Said> first;
+  for (const Said& one : heard)
+    first.try_emplace(one.channel, one);
+  std::vector<std::vector<Said>> all;
+  std::vector<Said> opening;
+  for (const auto& [channel, one] : first) {
+    all.push_back({one});
+    // A plan, a start and a scene come before what they begin; an ESTOP would end all.
+    if (channel != "ESTOP")
+      opening.insert(channel.find("STATE") == std::string::npos ? opening.begin() : opening.end(),
+                     one);
+  }
+  for (int i = 0; i < kWindows; ++i) {
+    std::vector<Said> window = opening;
+    const std::size_t from = heard.size() * static_cast<std::size_t>(i) / kWindows;
+    for (std::size_t k = from; k < std::min(from + kWindow, heard.size()); ++k)
+      window.push_back(heard[k]);
+    all.push_back(window);
+  }
+  return all;
+}
+
+/// A log with a few messages of every channel.
+void writeLog(const fs::path& path, const std::vector<Said>& all, std::size_t most) {
+  fs::create_directories(path.parent_path());
+  fs::remove(path);
+  logger::LogWriter log(path.string());
+  std::map<std::string, std::size_t> count;
+  int64_t utime = 1'700'000'000'000'000;
+  for (const Said& one : all) {
+    if (one.message.size() < messaging::kControlBytes && ++count[one.channel] <= most)
+      log.write(one.channel, one.message.data(), one.message.size(), ++utime);
+  }
+  log.flush();
+}
+
+void writeSeeds(const fs::path& folder) {
+  const Recording recording;
+  for (const char* target : {"planner", "controller", "hand_server", "sim_bullet", "vision_tracker",
+                             "experiment", "logger", "spy"}) {
+    int number = 0;
+    for (const auto& conversation : conversations(recording.of(channelsOf(target))))
+      write(folder / target / fmt::format("{:03}", number++), serialise(conversation));
+  }
+  writeLog(folder / "log" / "short", recording.of(allChannels()), 1);
+  writeLog(folder / "log" / "longer", recording.of(allChannels()), 4);
+}
+
+}  // namespace
+}  // namespace fastball::fuzz
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} FOLDER\n", argv[0]);
+    return 2;
+  }
+  try {
+    fastball::fuzz::writeSeeds(argv[1]);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
