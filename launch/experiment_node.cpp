@@ -55,6 +55,8 @@ void ExperimentNode::take(const swing_plan_t& plan) {
   }
   try {
     scene_ = scene(settings_, number_, plan);
+    if (const auto broken = messaging::fault(scene_))
+      fail(fmt::format("throw {}: its plan makes no scene: {}", number_, *broken));
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }

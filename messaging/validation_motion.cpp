@@ -5,6 +5,9 @@ namespace {
 
 constexpr int32_t kMaxSamples = 1000;
 constexpr int32_t kMaxParameters = 200;
+// A plan is looked through tick by tick: one that lasts for years would take as long to refuse.
+constexpr double kLongestStep = 0.1;  // [s], between two samples
+constexpr double kLongestPlan = 100;  // [s]
 // Beyond anything that a joint measures; with them, what is computed of a state stays finite.
 constexpr double kFarthestJoint = 1e3;    // [rad]
 constexpr double kFastestJoint = 1e4;     // [rad/s]
@@ -127,18 +130,18 @@ std::optional<std::string> fault(const swing_plan_t& m) {
       .sentence("message", m.message);
   check.enumeration("status", m.status, swing_plan_t::OK, swing_plan_t::REFUSED);
   check.positiveOrZero("plan_ms", m.plan_ms)
-      .positiveOrZero("t_ready", m.t_ready)
-      .positiveOrZero("t_swing", m.t_swing)
-      .positiveOrZero("t_swing_end", m.t_swing_end)
-      .positiveOrZero("t_release_command", m.t_release_command)
-      .positiveOrZero("t_release", m.t_release)
+      .within("t_ready", m.t_ready, 0.0, kLongestPlan)
+      .within("t_swing", m.t_swing, 0.0, kLongestPlan)
+      .within("t_swing_end", m.t_swing_end, 0.0, kLongestPlan)
+      .within("t_release_command", m.t_release_command, 0.0, kLongestPlan)
+      .within("t_release", m.t_release, 0.0, kLongestPlan)
       .positiveOrZero("release_window", m.release_window)
-      .atLeast("release_window[1]", m.release_window[1], m.release_window[0])
+      .within("release_window[1]", m.release_window[1], m.release_window[0], kLongestPlan)
       .positiveOrZero("residual_acceleration", m.residual_acceleration)
       .finite("p_WBall_release", m.p_WBall_release)
       .finite("v_WBall_release", m.v_WBall_release)
       .finite("landing", m.landing)
-      .positiveOrZero("flight_time", m.flight_time)
+      .within("flight_time", m.flight_time, 0.0, kLongestPlan)
       .finite("q_wrist", m.q_wrist)
       .positiveOrZero("grip_force", m.grip_force)
       .within<int32_t>("n_parameters", m.n_parameters, 0, kMaxParameters)
@@ -152,7 +155,7 @@ std::optional<std::string> fault(const swing_plan_t& m) {
   check.within<int32_t>("n_samples", m.n_samples, follows ? 2 : 0, kMaxSamples);
   if (follows)
     check.positive("dt", m.dt);
-  check.positiveOrZero("dt", m.dt);
+  check.within("dt", m.dt, 0.0, kLongestStep);
   rows(check, "q", m.q, m.n_samples);
   rows(check, "qd", m.qd, m.n_samples);
   return rows(check, "qdd", m.qdd, m.n_samples).fault();

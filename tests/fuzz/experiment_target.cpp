@@ -12,7 +12,7 @@
 namespace fastball {
 namespace {
 
-launch::RunSettings settings() {
+launch::RunSettings readSettings() {
   const config::Experiment experiment = config::loadExperiment(fuzz::experimentPath());
   launch::RunSettings settings;
   settings.throws = 3;
@@ -26,11 +26,13 @@ launch::RunSettings settings() {
 /// The experiment and everybody else who listens in its process.
 class Conductor : public messaging::Node {
  public:
-  Conductor(messaging::Endpoint& endpoint, const messaging::Clock& clock)
+  Conductor(messaging::Endpoint& endpoint,
+            const messaging::Clock& clock,
+            const launch::RunSettings& settings)
       : roster_(endpoint),
         silence_(endpoint, clock),
         judge_(endpoint),
-        experiment_(endpoint, clock, roster_, settings()) {
+        experiment_(endpoint, clock, roster_, settings) {
     launch::recordThrows(endpoint, throws_);
   }
   std::string name() const override { return experiment_.name(); }
@@ -70,8 +72,9 @@ class Conductor : public messaging::Node {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   using namespace fastball;
-  static fuzz::NodeTarget target("experiment", 200, [](auto& endpoint, const auto& clock) {
-    return std::make_unique<Conductor>(endpoint, clock);
+  static const launch::RunSettings kSettings = readSettings();
+  static fuzz::NodeTarget target("experiment", 50, [](auto& endpoint, const auto& clock) {
+    return std::make_unique<Conductor>(endpoint, clock, kSettings);
   });
   target.hear(data, size);
   return 0;

@@ -7,6 +7,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "launch/local_run.h"
 #include "logger/log_writer.h"
@@ -20,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint8_t kMillisecond = 3;     // a pause
-constexpr std::size_t kWindow = 24;     // messages of one conversation
-constexpr int kWindows = 6;             // spread over the throw
+constexpr std::size_t kWindow = 6;      // messages of one conversation
+constexpr int kWindows = 8;             // spread over the throw
 constexpr double kThumbnail = 1.0 / 8;  // of the cameras' images: decoded in a fraction of the time
 
 template <class T>
@@ -29,6 +30,26 @@ Said said(const std::string& channel, const T& message) {
   Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return {channel, kMillisecond, bytes};
+}
+
+/// The plan with as few samples as its rule allows: a fuzzer is as quick as its inputs are short. Its numbers stay a motion from rest to
+/// rest.
+swing_plan_t thinned(swing_plan_t plan) {
+  constexpr double kLongestStep = 0.1;  // [s]
+  const auto every = static_cast<int32_t>(kLongestStep / plan.dt);
+  const auto thin = [&](std::vector<std::vector<double>>& rows) {
+    std::vector<std::vector<double>> kept;
+    for (int32_t k = 0; k + 1 < plan.n_samples; k += every)
+      kept.push_back(rows[static_cast<std::size_t>(k)]);
+    kept.push_back(rows.back());
+    rows = kept;
+  };
+  thin(plan.q);
+  thin(plan.qd);
+  thin(plan.qdd);
+  plan.n_samples = static_cast<int32_t>(plan.q.size());
+  plan.dt *= every;
+  return plan;
 }
 
 /// Everything that is said in one throw, in its order, and what no good throw says.
@@ -57,6 +78,9 @@ class Recording {
     });
     return heard;
   }
+
+  /// As it was said, with all its samples.
+  const Said& wholePlan() const { return whole_plan_; }
 
  private:
   template <class T>
@@ -88,7 +112,10 @@ class Recording {
     keep(e, kScene);
     keep(e, kThrowStart);
     keep(e, kPlanRequest);
-    keep(e, kSwingPlan);
+    e.subscribe<swing_plan_t>(kSwingPlan, [this](const swing_plan_t& m) {
+      all_.push_back(said(kSwingPlan.name, thinned(m)));
+      whole_plan_ = said(kSwingPlan.name, m);
+    });
     keep(e, kControllerStatus);
     keep(e, kRelease);
     keep(e, kSimTruth);
@@ -108,6 +135,7 @@ class Recording {
   }
 
   std::vector<Said> all_;
+  Said whole_plan_;
 };
 
 void write(const fs::path& path, const Bytes& bytes) {
@@ -119,27 +147,52 @@ void write(const fs::path& path, const Bytes& bytes) {
     throw std::runtime_error(fmt::format("cannot write {}", path.string()));
 }
 
-/// Conversations for a target: the first message of each channel, and windows on the throw, each begun by these first messages.
-std::vector<std::vector<Said>> conversations(const std::vector<Said>& heard) {
-  std::map<std::string, Said> first;
-  for (const Said& one : heard)
-    first.try_emplace(one.channel, one);
-  std::vector<std::vector<Said>> all;
+/// What a message is one of: of some channels every sender counts by itself, told by the length of its name.
+std::pair<std::string, std::size_t> kindOf(const Said& one) {
+  const bool many_senders = one.channel == "CAMERA_INFO" || one.channel == "HEARTBEAT";
+  return {one.channel, many_senders ? one.message.size() : 0};
+}
+
+/// The first message of each kind, in their order.
+std::vector<Said> openingOf(const std::vector<Said>& heard) {
+  std::set<std::pair<std::string, std::size_t>> kinds;
   std::vector<Said> opening;
-  for (const auto& [channel, one] : first) {
+  std::copy_if(heard.begin(), heard.end(), std::back_inserter(opening),
+               [&](const Said& one) { return kinds.insert(kindOf(one)).second; });
+  return opening;
+}
+
+/// The whole throw, with a few messages of each channel; what processes say of themselves stays.
+std::vector<Said> inFew(const std::vector<Said>& heard) {
+  constexpr std::size_t kMost = 6;  // of a channel
+  std::map<std::string, std::size_t> all, count;
+  for (const Said& one : heard)
+    ++all[one.channel];
+  std::vector<Said> few;
+  std::copy_if(heard.begin(), heard.end(), std::back_inserter(few), [&](const Said& one) {
+    return one.channel == "HEARTBEAT" || count[one.channel]++ % (all[one.channel] / kMost + 1) == 0;
+  });
+  return few;
+}
+
+/// Conversations for a target: single messages, windows on the throw with what came before them, and the whole in few.
+std::vector<std::vector<Said>> conversations(const std::vector<Said>& heard) {
+  std::vector<Said> opening = openingOf(heard);
+  std::vector<std::vector<Said>> all;
+  for (const Said& one : opening)
     all.push_back({one});
-    // A plan, a start and a scene come before what they begin; an ESTOP would end all.
-    if (channel != "ESTOP")
-      opening.insert(channel.find("STATE") == std::string::npos ? opening.begin() : opening.end(),
-                     one);
-  }
+  // An ESTOP would end what the others begin.
+  opening.erase(std::remove_if(opening.begin(), opening.end(),
+                               [](const Said& one) { return one.channel == "ESTOP"; }),
+                opening.end());
   for (int i = 0; i < kWindows; ++i) {
-    std::vector<Said> window = opening;
+    std::vector<Said> window = i == 0 ? std::vector<Said>() : opening;
     const std::size_t from = heard.size() * static_cast<std::size_t>(i) / kWindows;
     for (std::size_t k = from; k < std::min(from + kWindow, heard.size()); ++k)
       window.push_back(heard[k]);
     all.push_back(window);
   }
+  all.push_back(inFew(heard));
   return all;
 }
 
@@ -162,8 +215,12 @@ void writeSeeds(const fs::path& folder) {
   for (const char* target : {"planner", "controller", "hand_server", "sim_bullet", "vision_tracker",
                              "experiment", "logger", "spy"}) {
     int number = 0;
-    for (const auto& conversation : conversations(recording.of(channelsOf(target))))
+    const std::vector<std::string>& channels = channelsOf(target);
+    for (const auto& conversation : conversations(recording.of(channels)))
       write(folder / target / fmt::format("{:03}", number++), serialise(conversation));
+    if (std::find(channels.begin(), channels.end(), recording.wholePlan().channel) !=
+        channels.end())
+      write(folder / target / "whole_plan", serialise({recording.wholePlan()}));
   }
   writeLog(folder / "log" / "short", recording.of(allChannels()), 1);
   writeLog(folder / "log" / "longer", recording.of(allChannels()), 4);

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     return sim_bullet::loadSetup(options);
   }();
   static int lives = 0;
-  static fuzz::NodeTarget target("sim_bullet", 100, [](auto& endpoint, const auto& clock) {
+  static fuzz::NodeTarget target("sim_bullet", 50, [](auto& endpoint, const auto& clock) {
     sim_bullet::SimulatorSetup setup = kSetup;
     setup.realtime = ++lives % 2 == 0;
     // Images take most of the time, and see little of the messages.

@@ -169,6 +169,15 @@ TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
   EXPECT_THAT(experiment.throws()[2].note, HasSubstr("no LANDING"));
 }
 
+TEST_F(ExperimentNodeTest, AnEstopIsSaidHoweverLongItsReason) {
+  peers.plays = false;
+  EXPECT_FALSE(flow());
+  experiment.stop(std::string(5000, 'x'));
+  network.run([] { return false; });
+  ASSERT_EQ(peers.estops.size(), 1U);
+  EXPECT_EQ(experiment.error().size(), 5000U);
+}
+
 TEST_F(ExperimentNodeTest, StopSaysEstop) {
   peers.plays = false;
   EXPECT_FALSE(flow());

@@ -33,6 +33,32 @@ TEST(Gaps, AreCountedOnChannelsWithOneSender) {
   EXPECT_EQ(missing, 4);  // 2, 3, 4 and 7; then the sender began again
 }
 
+TEST(Gaps, ANumberFromNowhereDoesNotSpoilTheCount) {
+  const messaging::TypeLibrary types;
+  SequenceGaps gaps(types);
+  int64_t missing = 0;
+  for (const int64_t seq :
+       {int64_t{0}, INT64_MAX, INT64_MIN, int64_t{-5}, INT64_MAX, int64_t{1}, int64_t{3}}) {
+    const auto bytes = armState(seq);
+    missing += gaps.missingBefore("ARM_STATE", bytes.data(), bytes.size());
+  }
+  EXPECT_EQ(missing, 1);  // 2
+}
+
+TEST(LogEntry, DoesNotBelieveALength) {
+  estop_t estop{};
+  estop.reason = "a hand on the red button";
+  LogEntry entry;
+  entry.data.resize(static_cast<std::size_t>(estop.getEncodedSize()));
+  estop.encode(entry.data.data(), 0, estop.getEncodedSize());
+  ASSERT_TRUE(entry.decode(estop));
+  // The length of the text stands behind fingerprint, utime and seq.
+  for (const char top : {'\x7f', '\xff', '\x01'}) {
+    entry.data[24] = top;
+    EXPECT_FALSE(entry.decode(estop));
+  }
+}
+
 TEST(Gaps, AreNoneWhereThereIsNoSequence) {
   const messaging::TypeLibrary types;
   SequenceGaps gaps(types);

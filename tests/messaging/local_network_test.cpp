@@ -96,6 +96,18 @@ TEST_F(LocalNetworkTest, GapsAndRepetitionsAreCounted) {
   EXPECT_EQ(counts.repeated, 2);  // the second 9, and 0 from a sender that began again
 }
 
+TEST_F(LocalNetworkTest, ANumberFromNowhereDoesNotSpoilTheCount) {
+  Endpoint& a = network.addEndpoint();
+  a.subscribe<arm_state_t>(kArmState, [](const auto&) {});
+  for (const int64_t seq : {int64_t{0}, INT64_MAX, int64_t{0}, INT64_MAX, int64_t{0}, int64_t{2}}) {
+    auto state = example<arm_state_t>();
+    state.seq = seq;
+    a.publish(kArmState, state);
+  }
+  a.drain();
+  EXPECT_EQ(a.counts().at("ARM_STATE").lost, 1);
+}
+
 TEST_F(LocalNetworkTest, GapsAreNotCountedWhereManySend) {
   Endpoint& a = network.addEndpoint();
   a.subscribe<heartbeat_t>(kHeartbeat, [](const auto&) {});

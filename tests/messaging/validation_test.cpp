@@ -55,6 +55,20 @@ TEST(Validation, PlanLengthsAgree) {
   EXPECT_THAT(faultOf<swing_plan_t>([](auto& m) { m.dt = 0; }), HasSubstr("dt"));
 }
 
+TEST(Validation, NumbersThatNoRobotMeasuresAreRefused) {
+  EXPECT_EQ(faultOf<arm_state_t>([](auto& m) { m.q[2] = 1e300; }),
+            "ARM_STATE: q[2] is 1e+300, beyond 1000");
+  EXPECT_THAT(faultOf<arm_state_t>([](auto& m) { m.qd[0] = -2e4; }), HasSubstr("qd[0]"));
+  EXPECT_THAT(faultOf<hand_state_t>([](auto& m) { m.q[9] = -1e4; }), HasSubstr("q[9]"));
+  EXPECT_THAT(faultOf<hand_state_t>([](auto& m) { m.f_normal[0] = 1e7; }), HasSubstr("f_normal"));
+}
+
+TEST(Validation, PlansLastNoYears) {
+  EXPECT_EQ(faultOf<swing_plan_t>([](auto& m) { m.dt = 1e6; }),
+            "SWING_PLAN: dt is 1000000, not in 0 .. 0.1");
+  EXPECT_THAT(faultOf<swing_plan_t>([](auto& m) { m.t_release = 1e300; }), HasSubstr("t_release"));
+}
+
 TEST(Validation, RefusedPlanNeedsNoTrajectory) {
   EXPECT_EQ(faultOf<swing_plan_t>([](auto& m) {
               m = swing_plan_t{};
