@@ -4,13 +4,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <thread>
+#include <utility>
 
 #include "launch/experiment_node.h"
 #include "launch/key_check.h"
@@ -28,9 +28,12 @@ namespace {
 
 constexpr double kMicro = 1e6;
 constexpr int64_t kWatchIntervalUs = 20000;
-// For the last commands to reach the robot and the log.
-constexpr auto kEstopTime = std::chrono::milliseconds(100);
-constexpr double kInterruptedGrace = 0.9;  // [s], twice: an interrupted run is over within 2 s
+// For the last commands to reach the robot and the log; a robot that says no new state for so long is no longer waited for.
+constexpr int64_t kEstopUs = 100'000;
+// For the arm to come to rest.
+constexpr int64_t kRestUs = 2'000'000, kInterruptedRestUs = 300'000;
+constexpr double kRestSpeed = 0.02;        // [rad/s]
+constexpr double kInterruptedGrace = 0.8;  // [s], twice: an interrupted run is over within 2 s
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
 constexpr double kHeartbeatPeriod = 1.1;  // [s]
 constexpr const char* kLogger = "logger";
@@ -112,6 +115,7 @@ class NetworkRun {
       watch_.emplace(endpoint_, clock_, experiment_.name(), setup.options.silence_limit);
     endpoint_.subscribe<logger_status_t>(messaging::kLoggerStatus,
                                          [this](const auto& m) { logger_status_ = m; });
+    endpoint_.subscribe<arm_state_t>(messaging::kArmState, [this](const auto& m) { arm_ = m; });
   }
 
   void listenForOthers();
@@ -133,6 +137,8 @@ class NetworkRun {
   void pump(bool act);
   void pumpFor(double seconds, bool act);
   void awaitProcesses(const std::vector<std::string>& names);
+  /// Waits after an ESTOP until the arm rests, as long as its states come.
+  void awaitRest();
   void watch();
   void watchPeers();
   bool isOurs(const heartbeat_t& heartbeat) const;
@@ -155,6 +161,7 @@ class NetworkRun {
   messaging::Heartbeat heartbeat_;
   Processes processes_;
   logger_status_t logger_status_{};
+  arm_state_t arm_{};  ///< the newest
   int64_t next_watch_us_ = INT64_MIN;
   bool conducting_ = false;
   const std::string host_ = hostName();
@@ -284,6 +291,23 @@ void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {
   }
 }
 
+void NetworkRun::awaitRest() {
+  const int64_t start_us = clock_.monotonicUs();
+  int64_t heard_us = start_us;
+  int64_t tick = arm_.tick;
+  const int64_t longest_us = signals_.received() ? kInterruptedRestUs : kRestUs;
+  for (int64_t now_us = start_us; now_us < start_us + longest_us; now_us = clock_.monotonicUs()) {
+    pollfd readable{endpoint_.fileDescriptor(), POLLIN, 0};
+    poll(&readable, 1, 10);
+    endpoint_.drain();
+    if (std::exchange(tick, arm_.tick) != arm_.tick)
+      heard_us = now_us;
+    const bool moves = Eigen::Map<const Eigen::Vector4d>(arm_.qd).norm() > kRestSpeed;
+    if (now_us >= (moves ? heard_us : start_us) + kEstopUs)
+      return;
+  }
+}
+
 void NetworkRun::conduct() {
   conducting_ = true;
   try {
@@ -294,9 +318,11 @@ void NetworkRun::conduct() {
   } catch (const std::exception& e) {
     const std::string sentence = e.what();
     experiment_.stop(sentence.substr(0, sentence.find('\n')));
-    std::this_thread::sleep_for(kEstopTime);
+    awaitRest();
     throw;
   }
+  if (!experiment_.error().empty())
+    awaitRest();
   const int64_t end = clock_.monotonicUs() + std::llround(kTruthTime * kMicro);
   while (!verdicts_.complete()) {
     pump(true);

@@ -11,6 +11,7 @@ constexpr double kLongestPlan = 100;  // [s]
 // Beyond anything that a joint measures; with them, what is computed of a state stays finite.
 constexpr double kFarthestJoint = 1e3;    // [rad]
 constexpr double kFastestJoint = 1e4;     // [rad/s]
+constexpr double kHastiestJoint = 1e6;    // [rad/s^2]
 constexpr double kStrongestJoint = 1e6;   // [Nm]
 constexpr double kStrongestFinger = 1e6;  // [N]
 
@@ -21,11 +22,12 @@ Check& target(Check& check, const T& m) {
       .positive("target_radius", m.target_radius);
 }
 
-/// n rows of four joints.
+/// n rows of four joints, each no further from zero than `limit`.
 Check& rows(Check& check,
             const char* field,
             const std::vector<std::vector<double>>& rows,
-            int32_t n) {
+            int32_t n,
+            double limit) {
   check.length(field, rows.size(), "n_samples", n);
   for (std::size_t i = 0; check.good() && i < rows.size(); ++i) {
     if (rows[i].size() != 4)
@@ -33,6 +35,8 @@ Check& rows(Check& check,
     for (std::size_t j = 0; check.good() && j < 4; ++j) {
       if (!std::isfinite(rows[i][j]))
         check.fail("{}[{}][{}] is {}", field, i, j, rows[i][j]);
+      else if (std::abs(rows[i][j]) > limit)
+        check.fail("{}[{}][{}] is {}, beyond {}", field, i, j, rows[i][j], limit);
     }
   }
   return check;
@@ -156,9 +160,9 @@ std::optional<std::string> fault(const swing_plan_t& m) {
   if (follows)
     check.positive("dt", m.dt);
   check.within("dt", m.dt, 0.0, kLongestStep);
-  rows(check, "q", m.q, m.n_samples);
-  rows(check, "qd", m.qd, m.n_samples);
-  return rows(check, "qdd", m.qdd, m.n_samples).fault();
+  rows(check, "q", m.q, m.n_samples, kFarthestJoint);
+  rows(check, "qd", m.qd, m.n_samples, kFastestJoint);
+  return rows(check, "qdd", m.qdd, m.n_samples, kHastiestJoint).fault();
 }
 
 std::optional<std::string> fault(const controller_status_t& m) {

@@ -60,6 +60,8 @@ TEST(Validation, NumbersThatNoRobotMeasuresAreRefused) {
             "ARM_STATE: q[2] is 1e+300, beyond 1000");
   EXPECT_THAT(faultOf<arm_state_t>([](auto& m) { m.qd[0] = -2e4; }), HasSubstr("qd[0]"));
   EXPECT_THAT(faultOf<hand_state_t>([](auto& m) { m.q[9] = -1e4; }), HasSubstr("q[9]"));
+  EXPECT_EQ(faultOf<swing_plan_t>([](auto& m) { m.qdd[1][2] = -1e7; }),
+            "SWING_PLAN: qdd[1][2] is -10000000, beyond 1000000");
   EXPECT_THAT(faultOf<hand_state_t>([](auto& m) { m.f_normal[0] = 1e7; }), HasSubstr("f_normal"));
 }
 

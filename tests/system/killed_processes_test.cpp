@@ -1,5 +1,5 @@
 // Each process is killed, and each is stopped, in each phase of a throw: the run ends and names it, the arm stays within its
-// limits, the log can be read, and no process is left.
+// limits and comes to rest within its braking distance, the log can be read, and no process is left.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,14 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdlib>
+#include <map>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "config/experiment.h"
 #include "logger/log_reader.h"
 #include "messaging/channels.h"
-#include "model/arm.h"
+#include "tests/system/arm_witness.h"
 #include "tests/system/fastball_run.h"
 
 namespace fastball::system_test {
@@ -25,22 +28,25 @@ using testing::HasSubstr;
 
 const std::array<std::string, 6> kNames = {"planner",    "controller",     "hand_server",
                                            "sim_bullet", "vision_tracker", "logger"};
-constexpr double kOverspeed =
-    1.1;  // times the limit, as config/experiment.yaml: controller.overspeed
+/// Who must answer for simulated time to go on: without them the arm stands still in mid-motion.
+const std::set<std::string> kInLockstep = {"controller", "hand_server", "sim_bullet"};
 
 /// A phase of a throw, and the message that says that it has begun.
 struct Moment {
   const char* name;
-  std::function<void(LcmEndpoint&, bool& reached)> subscribe;
+  std::function<void(LcmEndpoint&, const std::function<void()>& begun)> subscribe;
 };
 template <class T, class Is>
 Moment moment(const char* name, const messaging::Channel<T>& channel, Is is) {
-  return {name, [channel, is](LcmEndpoint& endpoint, bool& reached) {
-            endpoint.subscribe<T>(channel,
-                                  [&reached, is](const T& m) { reached = reached || is(m); });
+  return {name, [channel, is](LcmEndpoint& endpoint, const std::function<void()>& begun) {
+            endpoint.subscribe<T>(channel, [begun, is](const T& m) {
+              if (is(m))
+                begun();
+            });
           }};
 }
 
+constexpr std::size_t kWindingUp = 2;
 const std::array<Moment, 6> kMoments = {
     moment("planning", messaging::kPlanRequest, [](const plan_request_t&) { return true; }),
     moment("settling", messaging::kArmState, [](const arm_state_t& m) { return m.tick >= 100; }),
@@ -62,20 +68,9 @@ std::string programOf(std::string name) {
   return "fastball-" + name;
 }
 
-/// Every state that the log holds lies within the arm's limits. @return damaged places.
+/// Every record of the log can be read. @return damaged places.
 int checkLog(const std::string& path) {
-  const config::Experiment experiment =
-      config::loadExperiment(FASTBALL_SOURCE_DIR "/config/experiment.yaml");
-  const model::Arm arm(experiment.arm, experiment.hand.payload);
-  return logger::readLog(path, [&](const logger::LogEntry& entry) {
-    arm_state_t state{};
-    if (entry.channel != messaging::kArmState.name || !entry.decode(state))
-      return;
-    const Eigen::Map<const Eigen::Vector4d> q(state.q);
-    EXPECT_TRUE((q.array() >= experiment.arm.q_min.array()).all()) << q.transpose();
-    EXPECT_TRUE((q.array() <= experiment.arm.q_max.array()).all()) << q.transpose();
-    EXPECT_LT(arm.speedRatio(Eigen::Map<const Eigen::Vector4d>(state.qd)), kOverspeed);
-  });
+  return logger::readLog(path, [](const logger::LogEntry&) {});
 }
 
 /// One run, one signal to one of its processes. `number` gives it a network of its own.
@@ -88,14 +83,19 @@ void signalOne(const std::string& name,
   const int port = 40000 + static_cast<int>((getpid() * kNames.size() + number) % 20000);
   FastballRun run({"run", "--throws", "100", "--config", config, "--lcm-url",
                    fmt::format("udpm://239.255.76.67:{}?ttl=0", port)});
-  if (!run.await(moment.subscribe)) {
-    ADD_FAILURE() << "ended before: " << run.wait().output;
-    return;
-  }
-  const auto children = run.children();
-  ASSERT_EQ(children.size(), kNames.size());
-  kill(children.at(programOf(name)), signal);
+  ArmWitness arm;
+  std::map<std::string, int> children;
+  run.await([&](LcmEndpoint& endpoint, bool&) {
+    arm.listen(endpoint);
+    moment.subscribe(endpoint, [&] {
+      if (!children.empty())
+        return;
+      children = run.children();
+      kill(children.at(programOf(name)), signal);
+    });
+  });
   const Outcome outcome = run.wait();
+  ASSERT_EQ(children.size(), kNames.size()) << "ended before: " << outcome.output;
   EXPECT_EQ(outcome.exit_status, 1);
   const std::string sentence = name + (signal == SIGKILL ? " was ended by signal 9 (Killed)"
                                                          : " has said no HEARTBEAT for ");
@@ -103,6 +103,9 @@ void signalOne(const std::string& name,
   EXPECT_THAT(outcome.json.dump(), HasSubstr(sentence));
   for (const auto& [program, pid] : children)
     EXPECT_FALSE(isRunning(pid)) << program << " is left";
+  arm.expectLimitsKept();
+  if (kInLockstep.count(name) == 0)
+    arm.expectRest();
   // Only the logger's own end can cut a record.
   EXPECT_LE(checkLog(run.logPath()), name == "logger" ? 1 : 0);
 }
@@ -137,6 +140,8 @@ INSTANTIATE_TEST_SUITE_P(At,
 class StoppedProcess : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(StoppedProcess, EndsTheRunAndIsNamed) {
+  if (GetParam() % 3 != 0 && std::getenv("FASTBALL_LONG_TESTS") == nullptr)
+    GTEST_SKIP() << "each takes ten seconds: with FASTBALL_LONG_TESTS set, all 36 stops are tested";
   const EditedConfig hasty("experiment.yaml", "answer_timeout: 30.0", "answer_timeout: 4.0");
   signalEach(
       SIGSTOP,
@@ -145,6 +150,7 @@ TEST_P(StoppedProcess, EndsTheRunAndIsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Turned, StoppedProcess, testing::Values<std::size_t>(0, 3));
+INSTANTIATE_TEST_SUITE_P(FurtherTurned, StoppedProcess, testing::Values<std::size_t>(1, 2, 4, 5));
 
 /// In real time nobody waits for a process that is stopped in the swing.
 class StoppedInRealTime : public testing::Test {
@@ -153,13 +159,14 @@ class StoppedInRealTime : public testing::Test {
   Outcome stop(const std::string& name) {
     const EditedConfig hasty("experiment.yaml", "answer_timeout: 30.0", "answer_timeout: 4.0");
     FastballRun run({"run", "--throws", "100", "--realtime", "--config", hasty.experiment()});
-    run.awaitSwing();
-    const auto children = run.children();
-    if (children.count(programOf(name)) == 1)
-      kill(children.at(programOf(name)), SIGSTOP);
+    bool stopped = false;
     run.await([&](LcmEndpoint& endpoint, bool&) {
-      endpoint.subscribe<arm_state_t>(messaging::kArmState,
-                                      [&](const arm_state_t& m) { state_ = m; });
+      arm_.listen(endpoint);
+      kMoments[kWindingUp].subscribe(endpoint, [&] {
+        const auto children = run.children();
+        if (!std::exchange(stopped, true) && children.count(programOf(name)) == 1)
+          kill(children.at(programOf(name)), SIGSTOP);
+      });
       endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat, [&](const heartbeat_t& m) {
         details_.push_back(m.name + ": " + m.detail);
       });
@@ -167,7 +174,7 @@ class StoppedInRealTime : public testing::Test {
     return run.wait();
   }
 
-  arm_state_t state_{};  ///< the last
+  ArmWitness arm_;
   std::vector<std::string> details_;
 };
 
@@ -177,8 +184,8 @@ TEST_F(StoppedInRealTime, WithoutItsControllerTheArmComesToRest) {
   EXPECT_THAT(outcome.output, HasSubstr("controller has said no HEARTBEAT for "));
   EXPECT_THAT(details_, testing::Contains(HasSubstr("sim_bullet: braking: no ARM_COMMAND for more "
                                                     "than 20 ms")));
-  ASSERT_GT(state_.tick, 0);
-  EXPECT_LT(Eigen::Map<const Eigen::Vector4d>(state_.qd).norm(), 0.05) << "[rad/s]";
+  arm_.expectLimitsKept();
+  arm_.expectRest();
 }
 
 TEST_F(StoppedInRealTime, WithoutItsRobotTheControllerBrakesAndSaysSo) {
