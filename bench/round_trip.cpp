@@ -1,26 +1,21 @@
 #include "bench/round_trip.h"
 
-#include <arpa/inet.h>
-#include <fmt/format.h>
-#include <netinet/in.h>
-#include <poll.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
+#include "bench/round_trip_ways.h"
 #include "bench/timing.h"
-#include "messaging/lcm_endpoint.h"
 #include "messaging/multicast_check.h"
 
 namespace fastball::bench {
@@ -30,129 +25,7 @@ using Steady = std::chrono::steady_clock;
 
 constexpr auto kPeriod = std::chrono::milliseconds(1);
 constexpr int kPatienceMs = 20;
-constexpr int kBlock = 250;              // trips before the other way has its turn
-constexpr int kReceiveBuffer = 4194304;  // as the endpoint asks for
-constexpr std::size_t kShortHeader = 8;  // of LCM's packet: magic and number
-
-/// A way to say a state and hear its command, or the other end of it.
-class Way {
- public:
-  virtual ~Way() = default;
-  virtual int fileDescriptor() const = 0;
-  /// Robot: says state `tick`.
-  virtual void say(int64_t tick) = 0;
-  /// Takes what has come. Controller: and answers it. @return the newest tick heard.
-  virtual int64_t hear() = 0;
-};
-
-class LcmWay : public Way {
- public:
-  LcmWay(const std::string& url, bool is_controller)
-      : endpoint_(url),
-        states_(endpoint_, messaging::kArmState),
-        commands_(endpoint_, messaging::kArmCommand) {
-    if (is_controller) {
-      endpoint_.subscribe<arm_state_t>(messaging::kArmState, [this](const arm_state_t& m) {
-        tick_ = m.tick;
-        arm_command_t command{};
-        command.tick = m.tick;
-        commands_.publish(command);
-      });
-    } else {
-      endpoint_.subscribe<arm_command_t>(messaging::kArmCommand,
-                                         [this](const arm_command_t& m) { tick_ = m.tick; });
-    }
-  }
-  int fileDescriptor() const override { return endpoint_.fileDescriptor(); }
-  void say(int64_t tick) override {
-    arm_state_t state{};
-    state.tick = tick;
-    states_.publish(state);
-  }
-  int64_t hear() override {
-    endpoint_.drain();
-    return tick_;
-  }
-
- private:
-  messaging::LcmEndpoint endpoint_;
-  messaging::Publisher<arm_state_t> states_;
-  messaging::Publisher<arm_command_t> commands_;
-  int64_t tick_ = -1;
-};
-
-/// One socket that sends to the group and hears it, its own packets included, as LCM's do. A packet is a letter (who sent it), the
-/// tick, and as many bytes as LCM's packet has.
-class BareWay : public Way {
- public:
-  BareWay(const messaging::MulticastUrl& where, bool is_controller)
-      : controller_(is_controller), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    to_.sin_family = AF_INET;
-    to_.sin_port = htons(where.port);
-    inet_pton(AF_INET, where.group.c_str(), &to_.sin_addr);
-    const int yes = 1;
-    const unsigned char ttl = 0;
-    ip_mreq membership{};
-    membership.imr_multiaddr = to_.sin_addr;
-    const bool good = set(SOL_SOCKET, SO_REUSEADDR, yes) && set(SOL_SOCKET, SO_REUSEPORT, yes) &&
-                      set(SOL_SOCKET, SO_RCVBUF, kReceiveBuffer) &&
-                      set(IPPROTO_IP, IP_MULTICAST_TTL, ttl) &&
-                      bind(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof(to_)) == 0 &&
-                      set(IPPROTO_IP, IP_ADD_MEMBERSHIP, membership);
-    if (!good)
-      throw std::runtime_error(fmt::format("no multicast socket: {}", std::strerror(errno)));
-  }
-  ~BareWay() override { close(socket_); }
-  BareWay(const BareWay&) = delete;
-  BareWay& operator=(const BareWay&) = delete;
-
-  int fileDescriptor() const override { return socket_; }
-  void say(int64_t tick) override {
-    if (controller_)
-      send('C', tick, packetBytes<arm_command_t>(messaging::kArmCommand));
-    else
-      send('S', tick, packetBytes<arm_state_t>(messaging::kArmState));
-  }
-  int64_t hear() override {
-    char packet[2048];
-    ssize_t size = 0;
-    while ((size = recv(socket_, packet, sizeof(packet), MSG_DONTWAIT)) > 0) {
-      if (packet[0] != (controller_ ? 'S' : 'C'))
-        continue;
-      std::memcpy(&tick_, packet + 1, sizeof(tick_));
-      if (controller_)
-        say(tick_);
-    }
-    return tick_;
-  }
-
- private:
-  template <class T>
-  static std::size_t packetBytes(const messaging::Channel<T>& channel) {
-    return kShortHeader + std::strlen(channel.name) + 1 +
-           static_cast<std::size_t>(T{}.getEncodedSize());
-  }
-  template <class Value>
-  bool set(int level, int option, const Value& value) const {
-    return setsockopt(socket_, level, option, &value, sizeof(value)) == 0;
-  }
-  void send(char from, int64_t tick, std::size_t size) const {
-    std::vector<char> packet(size, from);
-    std::memcpy(packet.data() + 1, &tick, sizeof(tick));
-    sendto(socket_, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
-           sizeof(to_));
-  }
-
-  bool controller_;
-  int socket_;
-  sockaddr_in to_{};
-  int64_t tick_ = -1;
-};
-
-bool waitFor(const Way& way, int ms) {
-  pollfd readable{way.fileDescriptor(), POLLIN, 0};
-  return poll(&readable, 1, ms) > 0;
-}
+constexpr int kBlock = 250;  // trips before the other way has its turn
 
 /// The controller of one way: a process that answers until it is killed.
 class Controller {
@@ -163,7 +36,7 @@ class Controller {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     try {
       for (const auto way = make();;) {
-        waitFor(*way, -1);
+        waitFor(way->fileDescriptor(), -1);
         way->hear();
       }
     } catch (const std::exception&) {
@@ -187,7 +60,7 @@ class Controller {
 double trip(Way& way, int64_t tick) {
   const auto start = Steady::now();
   way.say(tick);
-  while (waitFor(way, kPatienceMs)) {
+  while (waitFor(way.fileDescriptor(), kPatienceMs)) {
     if (way.hear() == tick)
       return std::chrono::duration<double>(Steady::now() - start).count();
   }
@@ -227,27 +100,38 @@ double quantile(std::vector<double> values, double share) {
 RoundTrips roundTrips(double seconds) {
   const std::string url = privateLcmUrl();
   messaging::MulticastUrl where = *messaging::parseMulticastUrl(url);
-  ++where.port;
-  const auto lcm = [&](bool is_controller) { return std::make_unique<LcmWay>(url, is_controller); };
-  const auto bare = [&](bool is_controller) {
-    return std::make_unique<BareWay>(where, is_controller);
-  };
-  // Forked before this process opens its own ends.
-  const Controller lcm_controller([&] { return lcm(true); });
-  const Controller bare_controller([&] { return bare(true); });
-  const auto lcm_robot = lcm(false);
-  const auto bare_robot = bare(false);
-  int64_t tick = 0;
-  awaitAnswer(*lcm_robot, tick);
-  awaitAnswer(*bare_robot, tick);
+  using Make = std::function<std::unique_ptr<Way>(bool is_controller)>;
   RoundTrips trips;
-  const double block_s = 2 * kBlock * 1e-3;
-  for (int i = 0; i < std::max(1, static_cast<int>(std::lround(seconds / block_s))); ++i) {
-    measure(*lcm_robot, kBlock, tick, trips.lcm);
-    measure(*bare_robot, kBlock, tick, trips.bare);
+  struct Measured {
+    Make make;
+    std::vector<double>& times;
+    std::unique_ptr<Controller> controller;
+    std::unique_ptr<Way> robot;
+  };
+  messaging::MulticastUrl bare_where = where, piped_where = where;
+  bare_where.port = static_cast<uint16_t>(where.port + 1);
+  piped_where.port = static_cast<uint16_t>(where.port + 2);
+  std::array<Measured, 3> ways{
+      Measured{[&](bool c) { return lcmWay(url, c); }, trips.lcm, {}, {}},
+      Measured{[&](bool c) { return bareWay(bare_where, c); }, trips.bare, {}, {}},
+      Measured{[&](bool c) { return pipedWay(piped_where, c); }, trips.piped, {}, {}}};
+  // All are forked before this process has threads of its own for them.
+  for (Measured& way : ways)
+    way.controller = std::make_unique<Controller>([&] { return way.make(true); });
+  int64_t tick = 0;
+  for (Measured& way : ways) {
+    way.robot = way.make(false);
+    awaitAnswer(*way.robot, tick);
   }
-  if (trips.lcm.empty() || trips.bare.empty())
-    throw std::runtime_error("no answer over multicast");
+  const double turn_s = static_cast<double>(ways.size()) * kBlock * 1e-3;
+  for (int i = 0; i < std::max(1, static_cast<int>(std::lround(seconds / turn_s))); ++i) {
+    for (Measured& way : ways)
+      measure(*way.robot, kBlock, tick, way.times);
+  }
+  for (const Measured& way : ways) {
+    if (way.times.empty())
+      throw std::runtime_error("no answer over multicast");
+  }
   return trips;
 }
 

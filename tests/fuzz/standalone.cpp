@@ -24,9 +24,18 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 constexpr std::size_t kLongestInput = 1 << 17;
-constexpr unsigned kPatience = 60;           // [s], for one input
-constexpr rlim_t kMemory = rlim_t{4} << 30;  // of addresses; what believes a length needs more
+constexpr unsigned kPatience = 60;  // [s], for one input
+[[maybe_unused]] constexpr rlim_t kMemory =
+    rlim_t{4} << 30;  // of addresses; what believes a length needs more
 std::minstd_rand random_bytes(1);
+
+/// The address sanitizer reserves terabytes of addresses, and has a limit of its own for one allocation.
+void limitMemory() {
+#ifndef __SANITIZE_ADDRESS__
+  const rlimit memory{kMemory, kMemory};
+  setrlimit(RLIMIT_AS, &memory);
+#endif
+}
 
 std::vector<Bytes> seedsIn(const std::string& folder) {
   std::vector<std::string> paths;
@@ -77,8 +86,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "no seeds in %s\n", argv[1]);
     return 2;
   }
-  const rlimit memory{kMemory, kMemory};
-  setrlimit(RLIMIT_AS, &memory);
+  limitMemory();
   for (const Bytes& seed : seeds)
     LLVMFuzzerTestOneInput(seed.data(), seed.size());
   const int runs = std::atoi(argv[2]);
