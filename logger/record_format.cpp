@@ -15,6 +15,11 @@ void append(std::string& bytes, uint64_t value, int size) {
     bytes.push_back(static_cast<char>(value >> 8 * i));
 }
 
+/// Differences of such numbers are numbers.
+bool isCount(int64_t value) {
+  return value >= 0 && value < int64_t{1} << 62;
+}
+
 }  // namespace
 
 int64_t int64At(const char* bytes) {
@@ -28,7 +33,8 @@ bool parseHeader(const char* bytes, RecordHeader& header) {
   header.utime = int64At(bytes + 12);
   header.channel_bytes = bigEndian(bytes + 20, 4);
   header.data_bytes = bigEndian(bytes + 24, 4);
-  return canBeRecorded(header.channel_bytes, header.data_bytes);
+  return isCount(header.number) && isCount(header.utime) &&
+         canBeRecorded(header.channel_bytes, header.data_bytes);
 }
 
 std::string headerBytes(const RecordHeader& header) {

@@ -29,7 +29,8 @@ inline bool canBeRecorded(std::size_t channel_bytes, std::size_t data_bytes) {
   return channel_bytes >= 1 && channel_bytes <= kMaxChannelBytes && data_bytes <= kMaxDataBytes;
 }
 
-/// @return false if the kHeaderBytes at `bytes` cannot be the header of a record: no sync word, or a length beyond its limit.
+/// @return false if the kHeaderBytes at `bytes` cannot be the header of a record: no sync word, a length beyond its limit, or a
+/// time or number that is negative or beyond 2^62.
 bool parseHeader(const char* bytes, RecordHeader& header);
 
 /// The kHeaderBytes of a record.

@@ -73,6 +73,21 @@ TEST(Gaps, AreNoneWhereThereIsNoSequence) {
   }
 }
 
+TEST(RecordHeader, ATimeThatIsNoneIsNoRecord) {
+  RecordHeader header;
+  header.channel_bytes = 5;
+  RecordHeader read;
+  EXPECT_TRUE(parseHeader(headerBytes(header).data(), read));
+  for (const int64_t none : {int64_t{-1}, INT64_MIN, INT64_MAX}) {
+    RecordHeader wrong = header;
+    wrong.utime = none;
+    EXPECT_FALSE(parseHeader(headerBytes(wrong).data(), read)) << none;
+    wrong = header;
+    wrong.number = none;
+    EXPECT_FALSE(parseHeader(headerBytes(wrong).data(), read)) << none;
+  }
+}
+
 TEST_F(LogFiles, AFlushedLogIsReadableWhileItIsStillOpen) {
   LogWriter writer(path("a.lcmlog"));
   const auto bytes = armState(3);
