@@ -1,5 +1,5 @@
 // Drives a fuzz target without libFuzzer: TARGET FOLDER RUNS says every seed of the folder, and RUNS mutations of them. The same
-// every time.
+// every time for the same seeds.
 #include <sys/resource.h>
 #include <unistd.h>
 
