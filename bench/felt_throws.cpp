@@ -87,7 +87,7 @@ FeltThrow FeltThrows::run(hand_server::HandController& hand,
   if (!hand.offerPlan(plan) || !hand.startThrow({plan.id, scene_id, start_us}))
     throw std::runtime_error(hand.notice());
   sim_bullet::Scene scene(experiment_, simulation_, uncertainty,
-                          {seed, plan.arm.at(0).q, experiment_.target});
+                          {{0, seed}, plan.arm.at(0).q, experiment_.target});
   const double t_command =
       sim_bullet::kTick * static_cast<double>(start_tick_) + plan.t_release_command;
   FeltThrow thrown;
@@ -138,10 +138,12 @@ Eigen::Vector4d FeltThrows::armTorque(const sim_bullet::RobotState& robot, doubl
 
 sim_bullet::Uncertainty unknownBall() {
   sim_bullet::Uncertainty uncertainty;
-  uncertainty.ball_offset_sd = 0.003;
-  uncertainty.mass_rel_sd = 0.05;
-  uncertainty.youngs_modulus = config::Range{2e5, 1e6};
-  uncertainty.friction = config::Range{0.5, 1};
+  const auto part = sim_bullet::Uncertainty::kThrow;
+  uncertainty.setNormal(part, sim_bullet::Error::kGraspOffset, 0.003);
+  uncertainty.setNormal(part, sim_bullet::Error::kBallMass, 0.05);
+  uncertainty.setUniform(part, sim_bullet::Error::kFriction, -0.375, 0.25);
+  uncertainty.of(part, sim_bullet::Error::kStiffness).distribution = {
+      sim_bullet::Distribution::Shape::kLogUniform, 0.4, 2};
   return uncertainty;
 }
 

@@ -56,7 +56,7 @@ class FeltThrows {
   Eigen::Isometry3d X_TH_;
 };
 
-/// A ball of another stiffness, friction, mass and place in the hand in every throw, as config/uncertainty.yaml draws them. The
+/// A ball of another stiffness, friction, mass and place in the hand in every throw. The
 /// fingers obey without dead time: a thumb that opens late grazes the ball that has been let go with less than the sensors feel.
 sim_bullet::Uncertainty unknownBall();
 

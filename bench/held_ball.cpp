@@ -15,7 +15,7 @@ HeldBall::HeldBall()
     : experiment_(config::loadExperiment(config::defaultExperimentPath())),
       settings_(sim_bullet::loadSimulationSettings(config::defaultExperimentPath())),
       command_(graspCommand(experiment_, kGrip)),
-      scene_(experiment_, settings_, {}, {1, experiment_.q_rest, experiment_.target}) {
+      scene_(experiment_, settings_, {}, {{0, 1}, experiment_.q_rest, experiment_.target}) {
   while (static_cast<double>(scene_.tick()) * sim_bullet::kTick <
          settings_.feeder_release + kSettleTime)
     tick();

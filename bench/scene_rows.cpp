@@ -29,7 +29,7 @@ struct Simulator {
   sim_bullet::Scene scene{setup.experiment,
                           setup.settings,
                           setup.uncertainty,
-                          {1, setup.experiment.q_rest, setup.experiment.target}};
+                          {{0, 1}, setup.experiment.q_rest, setup.experiment.target}};
 
   static sim_bullet::SimulatorSetup defaultSetup() {
     messaging::ProcessOptions options;

@@ -27,6 +27,7 @@ struct ProcessOptions {
   std::string key;  ///< file of the key that commands carry (messaging/command_key.h), empty: none
   bool realtime = false;
   std::string uncertainty;  ///< file of errors to inject; only the simulator reads it
+  bool images = true;       ///< false: no cameras and no tracker; the simulator says LANDING itself
   bool verbose = false;
   double silence_limit = 0;  ///< [s], 0: none (messaging/peer_watch.h)
   double duration_s = 0;     ///< end after this wall time, 0: run until told to stop

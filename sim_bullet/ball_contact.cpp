@@ -15,8 +15,14 @@ constexpr double kNoDirection = 1e-9;
 
 }  // namespace
 
-BallContacts::BallContacts(const model::HandParameters& hand, const model::BallParameters& ball)
-    : hand_(hand), ball_(ball) {}
+BallContacts::BallContacts(const model::HandParameters& hand,
+                           const model::BallParameters& ball,
+                           const std::array<double, model::kFingers>& unevenness)
+    : hand_(hand), ball_(ball) {
+  finger_balls_.fill(ball);
+  for (std::size_t i = 0; i < finger_balls_.size(); ++i)
+    finger_balls_[i].youngs_modulus *= unevenness[i];
+}
 
 Wrench BallContacts::step(ArmHand& hand, const BallMotion& ball, double dt) {
   forces_ = {};
@@ -66,7 +72,8 @@ void BallContacts::touchFinger(int finger,
       continue;
     }
     const Touch touch{r_W / distance, y};
-    const Vector3d f_W = apply(touch, proximal + i, hand, ball, dt, &contact, wrench);
+    const Vector3d f_W = apply(finger_balls_[static_cast<std::size_t>(finger)], touch, proximal + i,
+                               hand, ball, dt, &contact, wrench);
     const double normal = touch.n_W.dot(f_W);
     const Vector3d distal = z_H - touch.n_W.dot(z_H) * touch.n_W;
     const double size = distal.norm();
@@ -96,11 +103,12 @@ void BallContacts::touchPalm(ArmHand& hand, const BallMotion& ball, double dt, W
     return;
   }
   const Touch touch{X_WH.linear() * r_H / distance, y};
-  const Vector3d f_W = apply(touch, kHandLink, hand, ball, dt, &palm_contact_, wrench);
+  const Vector3d f_W = apply(ball_, touch, kHandLink, hand, ball, dt, &palm_contact_, wrench);
   touching_[kPalm] = touch.n_W.dot(f_W) > 0;
 }
 
-Vector3d BallContacts::apply(const Touch& touch,
+Vector3d BallContacts::apply(const model::BallParameters& felt,
+                             const Touch& touch,
                              int link,
                              ArmHand& hand,
                              const BallMotion& ball,
@@ -111,7 +119,7 @@ Vector3d BallContacts::apply(const Touch& touch,
   const Vector3d arm_W = -(ball_.radius - touch.deformation) * touch.n_W;
   const Vector3d p_W = ball.p_WBall + arm_W;
   const Vector3d v_W = ball.v_WBall + ball.w_WBall.cross(arm_W) - hand.motion(link).velocityAt(p_W);
-  Vector3d f_W = contact->step(ball_, touch.n_W, touch.deformation, v_W, dt);
+  Vector3d f_W = contact->step(felt, touch.n_W, touch.deformation, v_W, dt);
   wrench->force += f_W;
   wrench->moment += arm_W.cross(f_W);
   hand.addForceAt(link, p_W, -f_W);

@@ -30,7 +30,10 @@ class BallContacts {
  public:
   static constexpr int kPalm = model::kFingers;  ///< index of the palm behind the fingers
 
-  BallContacts(const model::HandParameters& hand, const model::BallParameters& ball);
+  /// @param unevenness factor on the ball's modulus under finger A, thumb and finger B.
+  BallContacts(const model::HandParameters& hand,
+               const model::BallParameters& ball,
+               const std::array<double, model::kFingers>& unevenness = {1, 1, 1});
 
   /// Contact forces for the coming step of dt [s]: applies the reactions to the links, returns what acts on the ball.
   /// @param hand with current kinematics.
@@ -49,7 +52,8 @@ class BallContacts {
   void touchFinger(int finger, ArmHand& hand, const BallMotion& ball, double dt, Wrench* wrench);
   void touchPalm(ArmHand& hand, const BallMotion& ball, double dt, Wrench* wrench);
   /// Force [N] on the ball of one contact; its reaction goes to the link.
-  Eigen::Vector3d apply(const Touch& touch,
+  Eigen::Vector3d apply(const model::BallParameters& felt,
+                        const Touch& touch,
                         int link,
                         ArmHand& hand,
                         const BallMotion& ball,
@@ -59,6 +63,7 @@ class BallContacts {
 
   model::HandParameters hand_;
   model::BallParameters ball_;
+  std::array<model::BallParameters, model::kFingers> finger_balls_;  ///< as each finger feels it
   std::array<std::array<model::Contact, 2>, model::kFingers> finger_contacts_;
   model::Contact palm_contact_;
   std::array<FingerForce, model::kFingers> forces_;

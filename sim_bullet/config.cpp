@@ -20,6 +20,13 @@ TactileSettings readTactile(config::Section section) {
   return tactile;
 }
 
+CurtainSettings readCurtain(config::Section section) {
+  CurtainSettings curtain;
+  curtain.noise = section.number("noise", {0, 1});
+  section.finish();
+  return curtain;
+}
+
 NetSettings readNet(config::Section section) {
   NetSettings net;
   net.tube_radius = section.number("tube_radius", {1e-3, 0.05});
@@ -59,6 +66,7 @@ SimulationSettings loadSimulationSettings(const std::string& experiment_path) {
   settings.feeder_release = section.number("feeder_release", {0, 100});
   settings.feeder_frequency = section.number("feeder_frequency", {10, 2000});
   settings.tactile = readTactile(section.section("tactile"));
+  settings.light_curtain = readCurtain(section.section("light_curtain"));
   settings.net = readNet(section.section("net"));
   settings.floor = readFloor(section.section("floor"));
   section.finish();

@@ -37,6 +37,11 @@ struct TactileSettings {
   double resolution = 0;  ///< [N], step of the reading; 0: none
 };
 
+/// What measures landings where there are no cameras: a light curtain in the plane of the net's ring.
+struct CurtainSettings {
+  double noise = 0;  ///< [m], standard deviation of each coordinate
+};
+
 /// Section `simulation` of the experiment file.
 struct SimulationSettings {
   int substeps = 0;     ///< physics steps in a control tick
@@ -50,6 +55,7 @@ struct SimulationSettings {
   double feeder_release = 0;    ///< [s] after the scene's start, the feeder lets the ball go
   double feeder_frequency = 0;  ///< [rad/s], of the ball on the feeder's spring, critically damped
   TactileSettings tactile;
+  CurtainSettings light_curtain;
   NetSettings net;
   FloorSettings floor;
 };

@@ -63,7 +63,8 @@ SimulatorSetup loadSetup(const messaging::ProcessOptions& options) {
   setup.settings = loadSimulationSettings(path);
   if (!options.uncertainty.empty())
     setup.uncertainty = loadUncertainty(options.uncertainty);
-  setup.cameras = readCameraRig(path);
+  if (options.images)
+    setup.cameras = readCameraRig(path);
   setup.realtime = options.realtime;
   return setup;
 }
@@ -79,10 +80,10 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
       truths_(endpoint, messaging::kSimTruth),
       camera_infos_(endpoint, messaging::kCameraInfo) {
   if (setup_.cameras) {
-    cameras_ = std::make_unique<CameraRig>(*setup_.cameras, setup_.experiment.arm,
-                                           setup_.experiment.hand, setup_.experiment.ball.radius);
-    for (const RigCamera& camera : cameras_->cameras())
+    for (const RigCamera& camera : setup_.cameras->cameras)
       images_.emplace_back(endpoint, imageChannel(camera.channel));
+  } else {
+    landings_.emplace(endpoint, messaging::kLanding);
   }
   endpoint.subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) {
     if (m.scene_id > message_.scene_id)
@@ -157,6 +158,7 @@ void SimNode::begin(const scene_t& message) {
   hand_watch_.beginScene(message.scene_id);
   stray_commands_ = 0;
   braking_ = false;
+  curtain_said_ = false;
   try {
     requireRealScene(message);
     scene_ = std::make_unique<Scene>(setup_.experiment, setup_.settings, setup_.uncertainty,
@@ -174,14 +176,31 @@ void SimNode::begin(const scene_t& message) {
   sayStates();
 }
 
-void SimNode::beginImages() {
-  if (!cameras_)
+void SimNode::placeCameras() {
+  if (cameras_ && cameras_set_up_ == message_.set_up_seed)
     return;
+  cameras_set_up_ = message_.set_up_seed;
+  CameraRigOptions placed = *setup_.cameras;
+  placed.noise *= drawImageNoise(setup_.uncertainty, cameras_set_up_);
+  for (std::size_t i = 0; i < placed.cameras.size(); ++i) {
+    model::Camera& camera = placed.cameras[i].camera;
+    camera = movedCamera(camera,
+                         drawCameraErrors(setup_.uncertainty, static_cast<int>(i), cameras_set_up_),
+                         scene_->errors().room);
+  }
+  cameras_ = std::make_unique<CameraRig>(placed, setup_.experiment.arm, setup_.experiment.hand,
+                                         scene_->errors().ball.radius);
+}
+
+void SimNode::beginImages() {
+  if (!setup_.cameras)
+    return;
+  placeCameras();
   const auto us = [&](double seconds) {
     return message_.utime + std::llround(std::min(seconds, message_.duration) * 1e6);
   };
   cameras_->begin(message_.scene_id, message_.seed, us(message_.camera_start),
-                  us(message_.camera_end), sceneStart(message_).target);
+                  us(message_.camera_end), scene_->target());
   cameras_->add(scene_->snapshot(message_.utime));
 }
 
@@ -240,8 +259,11 @@ void SimNode::afterTick() {
                               message_.scene_id, scene_->tick()));
     return;
   }
-  for (const SceneEvent& event : scene_->events())
+  for (const SceneEvent& event : scene_->events()) {
     sayEvent(truth(event, message_.utime, message_.scene_id, scene_->state().q.arm));
+    if (event.kind == SceneEvent::Kind::kLanded)
+      sayLanding(&event);
+  }
   if (cameras_)
     cameras_->add(scene_->snapshot(message_.utime));
   if (scene_->tick() >= last_tick_) {
@@ -288,12 +310,20 @@ void SimNode::repeatEvents() {
 }
 
 void SimNode::sayCameraInfo() {
-  if (!cameras_)
+  if (!setup_.cameras)
     return;
-  for (const RigCamera& camera : cameras_->cameras()) {
+  for (const RigCamera& camera : setup_.cameras->cameras) {
     camera_info_t message = cameraInfo(camera, stamp().utime);
     camera_infos_.publish(message);
   }
+}
+
+void SimNode::sayLanding(const SceneEvent* landed) {
+  if (!landings_ || curtain_said_)
+    return;
+  curtain_said_ = true;
+  landing_t message = curtainLanding(stamp(), landed, setup_.settings.light_curtain, message_.seed);
+  landings_->publish(message);
 }
 
 void SimNode::sayImages() {
@@ -314,6 +344,7 @@ void SimNode::end(const std::string& state, const std::string& note) {
     message.note = note;
     sayEvent(message);
   }
+  sayLanding(nullptr);
   last_events_ = std::move(events_);
   events_.clear();
   repeats_ = kEventRepeats;

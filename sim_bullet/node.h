@@ -21,7 +21,8 @@ struct SimulatorSetup {
   config::Experiment experiment;
   SimulationSettings settings;
   Uncertainty uncertainty;
-  std::optional<CameraRigOptions> cameras;  ///< none: no images
+  /// As calibrated; none: no images, and LANDING from the light curtain.
+  std::optional<CameraRigOptions> cameras;
   bool realtime = false;
 };
 
@@ -60,6 +61,8 @@ class SimNode : public messaging::Node {
   void take(const Command& message, CommandWatch& watch, std::optional<Command>* newest);
   void begin(const scene_t& message);
   void beginImages();
+  void placeCameras();
+  void sayLanding(const SceneEvent* landed);
   void stepLockstep();
   void stepRealtime();
   void tickRealtime();
@@ -80,13 +83,15 @@ class SimNode : public messaging::Node {
   const messaging::Endpoint& endpoint_;
   const messaging::Clock& clock_;
   SimulatorSetup setup_;
-  std::unique_ptr<CameraRig> cameras_;
+  std::unique_ptr<CameraRig> cameras_;  ///< as they really stand
+  int64_t cameras_set_up_ = 0;          ///< seed of the set-up in which they stand so
 
   messaging::Publisher<arm_state_t> arm_states_;
   messaging::Publisher<hand_state_t> hand_states_;
   messaging::Publisher<sim_truth_t> truths_;
   messaging::Publisher<camera_info_t> camera_infos_;
   std::vector<messaging::Publisher<image_t>> images_;
+  std::optional<messaging::Publisher<landing_t>> landings_;  ///< where there are no images
 
   std::optional<scene_t> next_scene_;
   std::optional<arm_command_t> arm_command_;
@@ -104,6 +109,7 @@ class SimNode : public messaging::Node {
   int repeats_ = 0;                       ///< of those still to come
   int64_t next_repeat_us_ = 0;            ///< monotonic
   bool braking_ = false;                  ///< real time: the watchdog has the arm
+  bool curtain_said_ = false;             ///< LANDING of the scene
   RenderedImage rendered_;
   messaging::NodeState state_;
 };

@@ -44,6 +44,17 @@ Vector3d drag(const model::BallParameters& ball, const Vector3d& v_W) {
   return ball.mass * model::flightAcceleration(v_W, ball.dragPerMetre(), 0);
 }
 
+model::ArmParameters withFriction(model::ArmParameters arm, double factor) {
+  arm.viscous_friction *= factor;
+  arm.coulomb_friction *= factor;
+  return arm;
+}
+
+model::HandParameters withLag(model::HandParameters hand, double factor) {
+  hand.actuator_lag *= factor;
+  return hand;
+}
+
 }  // namespace
 
 Scene::Scene(const config::Experiment& experiment,
@@ -51,21 +62,25 @@ Scene::Scene(const config::Experiment& experiment,
              const Uncertainty& uncertainty,
              const SceneStart& start)
     : settings_(settings),
-      arm_(experiment.arm, experiment.hand.payload),
-      errors_(drawErrors(uncertainty, experiment.ball, start.seed)),
+      errors_(drawErrors(uncertainty, experiment.ball, start.seeds)),
+      arm_(withFriction(experiment.arm, errors_.joint_friction), experiment.hand.payload),
       gravity_(experiment.arm.gravity),
+      target_(errors_.room.target(start.target)),
       open_hand_(sim_bullet::openHand(experiment, settings)),
       arm_hand_(experiment.arm, experiment.hand, open_hand_.q),
-      world_(arm_hand_, errors_.ball, start.target, settings.net, settings.floor, gravity_),
-      contacts_(experiment.hand, errors_.ball),
-      servo_(experiment.hand, errors_.finger_delay, kTick / settings.substeps),
-      tactile_(settings.tactile, kTick / settings.substeps, start.seed),
+      world_(arm_hand_, errors_.ball, target_, settings.net, settings.floor, gravity_),
+      contacts_(experiment.hand, errors_.ball, errors_.unevenness),
+      servo_(withLag(experiment.hand, errors_.finger_lag),
+             errors_.finger_delay,
+             kTick / settings.substeps),
+      tactile_(settings.tactile, kTick / settings.substeps, start.seeds.scene),
+      encoder_noise_(errors_.encoder_noise, kTick, start.seeds.scene),
       stops_(experiment.arm, experiment.hand, settings),
       feeder_(experiment.hand.p_HBall + errors_.ball_offset_H,
               errors_.ball,
               settings.feeder_frequency),
-      bag_(start.target, settings.net, errors_.ball),
-      judge_(start.target, errors_.ball.dragPerMetre(), gravity_) {
+      bag_(target_, settings.net, errors_.ball),
+      judge_(target_, errors_.ball.dragPerMetre(), gravity_) {
   requireInsideStops(experiment.arm, start.q_arm);
   arm_hand_.setState({start.q_arm, open_hand_.q}, {});
   arm_hand_.updateKinematics();
@@ -100,6 +115,7 @@ void Scene::tickWith(const Vector4d* tau_arm, const HandCommand& hand) {
   }
   state_.felt = tactile_.read();
   ++tick_;
+  encoder_noise_.step();
   readState();
 }
 
@@ -157,8 +173,8 @@ void Scene::pushBall(double dt, JudgedStep* judged) {
 void Scene::readState() {
   state_.q = arm_hand_.q();
   state_.qd = arm_hand_.qd();
-  state_.q_arm = state_.q.arm + errors_.encoder_bias;
-  state_.qd_arm = state_.qd.arm;
+  state_.q_arm = state_.q.arm + errors_.encoder_offset + encoder_noise_.q();
+  state_.qd_arm = state_.qd.arm + encoder_noise_.qd();
 }
 
 SceneSnapshot Scene::snapshot(int64_t start_utime) const {

@@ -12,12 +12,13 @@
 #include "sim_bullet/arm_hand.h"
 #include "sim_bullet/ball_contact.h"
 #include "sim_bullet/config.h"
+#include "sim_bullet/encoder_noise.h"
 #include "sim_bullet/feeder.h"
 #include "sim_bullet/landing_judge.h"
 #include "sim_bullet/net_bag.h"
+#include "sim_bullet/scene_errors.h"
 #include "sim_bullet/snapshot.h"
 #include "sim_bullet/tactile_sensor.h"
-#include "sim_bullet/uncertainty.h"
 #include "sim_bullet/world.h"
 
 namespace fastball::sim_bullet {
@@ -38,9 +39,9 @@ struct RobotState {
 
 /// What a scene begins with.
 struct SceneStart {
-  int64_t seed = 0;
+  SceneSeeds seeds;
   Eigen::Vector4d q_arm = Eigen::Vector4d::Zero();  ///< [rad], at rest
-  model::Target target;
+  model::Target target;                             ///< as ordered
 };
 
 /// One throw from start to end in a fresh world: arm at rest, fingers open, the ball held in the hand by the feeder.
@@ -70,6 +71,8 @@ class Scene {
   /// The command that keeps the open hand as it is at the start, for the time before the first command.
   const HandCommand& openHand() const { return open_hand_; }
   const SceneErrors& errors() const { return errors_; }
+  /// The net as it really stands.
+  const model::Target& target() const { return target_; }
 
  private:
   void tickWith(const Eigen::Vector4d* tau_arm, const HandCommand& hand);
@@ -78,15 +81,17 @@ class Scene {
   void readState();
 
   SimulationSettings settings_;
-  model::Arm arm_;  ///< with the hand it carries: friction, limits, gravity
   SceneErrors errors_;
+  model::Arm arm_;  ///< with the hand it carries: friction, limits, gravity
   double gravity_;
+  model::Target target_;  ///< as it really stands
   HandCommand open_hand_;
   ArmHand arm_hand_;
   World world_;
   BallContacts contacts_;
   HandServo servo_;
   TactileSensor tactile_;
+  EncoderNoise encoder_noise_;
   JointStops stops_;
   Feeder feeder_;
   NetBag bag_;

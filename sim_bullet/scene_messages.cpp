@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace fastball::sim_bullet {
 namespace {
@@ -17,6 +18,9 @@ template <int n>
 void copyTo(double (&values)[n], const Eigen::Matrix<double, n, 1>& vector) {
   Eigen::Map<Eigen::Matrix<double, n, 1>>{values} = vector;
 }
+
+/// The curtain's noise must not follow the other random numbers of a scene, which begin with the same seed.
+constexpr uint64_t kCurtainStream = 0x6375727461696e;
 
 }  // namespace
 
@@ -88,6 +92,28 @@ sim_truth_t truth(const SceneEvent& event,
   return message;
 }
 
+landing_t curtainLanding(const TickStamp& stamp,
+                         const SceneEvent* landed,
+                         const CurtainSettings& curtain,
+                         int64_t seed) {
+  landing_t message{};
+  message.utime = stamp.utime;
+  message.request_id = stamp.scene_id;
+  if (landed == nullptr) {
+    message.message = "no ball crossed the light curtain";
+    return message;
+  }
+  message.measured = 1;
+  std::mt19937_64 engine(static_cast<uint64_t>(seed) ^ kCurtainStream);
+  std::normal_distribution<double> normal;
+  for (int axis = 0; axis < 2; ++axis)
+    message.landing[axis] = landed->landing[axis] + curtain.noise * normal(engine);
+  message.cov_landing[0] = message.cov_landing[2] = curtain.noise * curtain.noise;
+  Eigen::Map<Eigen::Vector3d>(message.v_WBall) = landed->ball.v_WBall;
+  message.n_observations = 1;
+  return message;
+}
+
 camera_info_t cameraInfo(const RigCamera& rig, int64_t utime) {
   const model::Camera& camera = rig.camera;
   camera_info_t message{};
@@ -128,7 +154,7 @@ HandCommand handCommand(const hand_command_t& message) {
 
 SceneStart sceneStart(const scene_t& message) {
   SceneStart start;
-  start.seed = message.seed;
+  start.seeds = {message.set_up_seed, message.seed};
   start.q_arm = vector(message.q_arm);
   start.target.p_WTarget = vector(message.p_WTarget);
   start.target.n_WTarget = vector(message.n_WTarget).normalized();

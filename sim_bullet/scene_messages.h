@@ -28,6 +28,11 @@ sim_truth_t truth(const SceneEvent& event,
                   int64_t start_utime,
                   int64_t scene_id,
                   const Eigen::Vector4d& q_arm);
+/// What the light curtain says of a landing; null: of a ball that never crossed it. Its noise follows the seed.
+landing_t curtainLanding(const TickStamp& stamp,
+                         const SceneEvent* landed,
+                         const CurtainSettings& curtain,
+                         int64_t seed);
 camera_info_t cameraInfo(const RigCamera& camera, int64_t utime);
 image_t image(const RenderedImage& rendered);
 

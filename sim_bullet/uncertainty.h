@@ -1,46 +1,91 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <random>
 #include <string>
-
-#include "config/strict_yaml.h"
-#include "model/arm_parameters.h"
-#include "model/ball_parameters.h"
-#include "model/hand_parameters.h"
+#include <vector>
 
 namespace fastball::sim_bullet {
 
-/// What can be wrong in a throw, as an uncertainty file gives it; a key left out means no such error. sd: standard deviation.
+/// How large one error is. Nothing but kNone draws a number; a draw is an offset in the error's unit, or for a relative one the
+/// factor on the nominal value.
+struct Distribution {
+  enum class Shape {
+    kNone,
+    kNormal,      ///< standard deviation `a`, cut off at three of them
+    kHalfNormal,  ///< the magnitude of such a draw: a delay
+    kUniform,     ///< even from `a` to `b`
+    kLogUniform,  ///< a factor, even on a logarithmic scale from `a` to `b`
+  };
+  Shape shape = Shape::kNone;
+  double a = 0, b = 0;
+
+  /// Offset of a draw, or for kLogUniform the factor less 1. `size` multiplies it: a log-uniform factor is raised to that power.
+  double draw(std::mt19937_64& engine, double size) const;
+  /// Largest |draw|.
+  double largest(double size) const;
+};
+
+/// No relative error makes a quantity less than this share of its nominal value.
+inline constexpr double kLeastFactor = 0.05;
+
+/// The errors a throw can have. Each may be given for the set-up, for the throw, or for both: then they add up.
+enum class Error {
+  kGraspOffset,     ///< [m], of the ball in the hand, each axis
+  kBallMass,        ///< relative
+  kBallRadius,      ///< relative
+  kStiffness,       ///< relative, of the ball's Young's modulus
+  kUnevenness,      ///< relative, of the modulus under each finger
+  kFriction,        ///< relative, of Coulomb's mu between finger and ball
+  kDrag,            ///< relative, of the ball's drag coefficient
+  kOpeningDelay,    ///< [s], dead time of all fingers' commands
+  kFingerDelay,     ///< [s], of each finger's beyond that
+  kFingerLag,       ///< relative, of the fingers' drives
+  kEncoderOffset,   ///< [rad], of each arm joint's reading
+  kEncoderNoise,    ///< [rad], of each arm joint's reading, drawn anew at every tick
+  kJointFriction,   ///< relative, of the arm's viscous and Coulomb friction
+  kBasePosition,    ///< [m], of the arm in the room, each axis
+  kBaseYaw,         ///< [rad], of the arm in the room, about the vertical
+  kTargetPosition,  ///< [m], of the net in the room, each axis
+  kCameraPosition,  ///< [m], of each camera in the room, each axis
+  kCameraRotation,  ///< [rad], of each camera about each of its axes
+  kImageNoise,      ///< relative, of the images' noise
+};
+inline constexpr int kErrors = 19;
+
+/// Name in the file and unit ("relative": of the nominal value).
+struct ErrorName {
+  Error error;
+  const char* name;
+  const char* unit;
+};
+const std::array<ErrorName, kErrors>& errorNames();
+
+/// What is wrong in a set-up and in a throw, as an uncertainty file gives it; an error left out does not happen.
 struct Uncertainty {
-  double ball_offset_sd = 0;   ///< [m], of the ball in the hand, each axis
-  double mass_rel_sd = 0;      ///< of the ball's mass, relative
-  double drag_rel_sd = 0;      ///< of its drag coefficient, relative
-  double encoder_bias_sd = 0;  ///< [rad], of each arm joint's reading
-  double opening_delay_sd =
-      0;  ///< [s], dead time of all fingers' commands: the magnitude of the draw
-  double finger_delay_sd = 0;  ///< [s], of each finger's beyond that: the magnitude of the draw
-  std::optional<config::Range> youngs_modulus;  ///< [Pa], even on a logarithmic scale
-  std::optional<config::Range> friction;        ///< Coulomb mu between finger and ball, even
+  /// Of the set-up: drawn once from its seed. Of the throw: drawn anew for each from the scene's seed.
+  enum Part { kSetUp, kThrow };
+  struct Size {
+    Distribution distribution;
+    double size = 1;  ///< common scale times the error's own factor
+  };
+  std::array<std::array<Size, kErrors>, 2> sizes;
+
+  Size& of(Part part, Error error) { return sizes[part][static_cast<std::size_t>(error)]; }
+  const Size& of(Part part, Error error) const {
+    return sizes[part][static_cast<std::size_t>(error)];
+  }
+  /// A normal error, for what is made in code.
+  void setNormal(Part part, Error error, double sd) {
+    of(part, error).distribution = {Distribution::Shape::kNormal, sd, 0};
+  }
+  void setUniform(Part part, Error error, double low, double high) {
+    of(part, error).distribution = {Distribution::Shape::kUniform, low, high};
+  }
 };
 
-/// Reads an uncertainty file. @throw config::ConfigError for an unknown key, or a value beyond anything real.
+/// Reads an uncertainty file. @throw config::ConfigError for an unknown key, a wrong unit, or a size beyond anything real.
 Uncertainty loadUncertainty(const std::string& path);
-
-/// The errors of one scene.
-struct SceneErrors {
-  Eigen::Vector3d ball_offset_H = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector4d encoder_bias = Eigen::Vector4d::Zero();   ///< [rad]
-  std::array<double, model::kFingers> finger_delay{};       ///< [s], of the commands
-  model::BallParameters ball;                               ///< as it really is
-};
-
-/// Draws the errors of a scene: the same for the same seed. No draw goes beyond three standard deviations. Each quantity has
-/// its place in the sequence of random numbers, so that one more error does not change the others.
-SceneErrors drawErrors(const Uncertainty& uncertainty,
-                       const model::BallParameters& ball,
-                       int64_t seed);
 
 }  // namespace fastball::sim_bullet

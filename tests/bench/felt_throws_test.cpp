@@ -33,7 +33,10 @@ TEST(FeltThrows, ADepartureIsFeltWithinHalfAMillisecondWhenTheFingersRetreat) {
 TEST(FeltThrows, TheHandLearnsItsFingersDeadTime) {
   const FeltThrows throws(kExperimentFile, "paper");
   sim_bullet::Uncertainty uncertainty = unknownBall();
-  uncertainty.opening_delay_sd = 0.004;
+  uncertainty.setUniform(sim_bullet::Uncertainty::kSetUp, sim_bullet::Error::kOpeningDelay, 0.004,
+                         0.004);
+  uncertainty.of(sim_bullet::Uncertainty::kThrow, sim_bullet::Error::kOpeningDelay).distribution = {
+      sim_bullet::Distribution::Shape::kHalfNormal, 0.001, 0};
   hand_server::HandController hand = throws.makeHand();
   double planned = 0, predicted = 0;
   for (int seed = 1; seed <= 25; ++seed) {

@@ -65,7 +65,7 @@ class HandThrow : public testing::Test {
     EXPECT_TRUE(hand.offerPlan(made.handPlan()));
     EXPECT_TRUE(hand.startThrow({1, 1, std::llround(1e6 * kSettle)}));
     SceneStart start = restStart();
-    start.seed = seed;
+    start.seeds.scene = seed;
     Scene scene(made.set_up, simulation(), uncertainty, start);
     Thrown thrown;
     const auto ticks = std::lround(1e3 * (kSettle + plan.t_release + plan.flight_time + 0.05));
@@ -122,7 +122,8 @@ TEST_F(HandThrow, LandsThereFromThreeFingersSpacedEvenly) {
 
 TEST_F(HandThrow, DoesNotSlipAtAFrictionOfAHalf) {
   Uncertainty uncertainty;
-  uncertainty.friction = config::Range{0.5, 0.5};
+  const double mu = experiment().ball.friction;
+  uncertainty.setUniform(Uncertainty::kThrow, Error::kFriction, 0.5 / mu - 1, 0.5 / mu - 1);
   const Thrown thrown = run(uncertainty, 1);
   EXPECT_LT(thrown.most_slip, 0.5e-3);
   EXPECT_EQ(thrown.notice, "");
@@ -130,7 +131,8 @@ TEST_F(HandThrow, DoesNotSlipAtAFrictionOfAHalf) {
 
 TEST_F(HandThrow, ASlipIsSaidBeforeTheRelease) {
   Uncertainty uncertainty;
-  uncertainty.friction = config::Range{0.1, 0.1};
+  const double mu = experiment().ball.friction;
+  uncertainty.setUniform(Uncertainty::kThrow, Error::kFriction, 0.1 / mu - 1, 0.1 / mu - 1);
   const Thrown thrown = run(uncertainty, 1);
   EXPECT_GT(thrown.most_slip, 0.5e-3);
   EXPECT_THAT(thrown.notice, HasSubstr("the ball slips"));
@@ -138,10 +140,11 @@ TEST_F(HandThrow, ASlipIsSaidBeforeTheRelease) {
 
 TEST_F(HandThrow, GraspsABallThatLiesOffTheCentre) {
   Uncertainty uncertainty;
-  uncertainty.ball_offset_sd = 0.005;
+  uncertainty.setNormal(Uncertainty::kThrow, Error::kGraspOffset, 0.005);
   int thrown_off_centre = 0;
   for (int64_t seed = 1; seed < 200 && thrown_off_centre < 3; ++seed) {
-    const double offset = drawErrors(uncertainty, experiment().ball, seed).ball_offset_H.norm();
+    const double offset =
+        drawErrors(uncertainty, experiment().ball, {0, seed}).ball_offset_H.norm();
     if (offset < 0.009 || offset > 0.010)
       continue;
     ++thrown_off_centre;

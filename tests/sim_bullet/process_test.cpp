@@ -147,11 +147,11 @@ TEST(KeyedSimulator, NamesASecondControllerByProcessAndHost) {
 
 TEST(ProcessStart, BadFilesEndWithStatusTwoAndTheirPlace) {
   const config::TemporaryFolder folder;
-  const std::string errors =
-      folder.write("errors.yaml", "# what can go wrong\nball_offset_sd: 5\n");
+  const std::string errors = folder.write(
+      "errors.yaml", "# what can go wrong\nthrow:\n  grasp_offset: {normal: 5, unit: m}\n");
   ChildProcess with_errors({kProgram, "--config", kExperimentFile, "--uncertainty", errors});
   EXPECT_EQ(with_errors.wait(), 2);
-  EXPECT_THAT(with_errors.output(), AllOf(HasSubstr("errors.yaml:2"), HasSubstr("ball_offset_sd")));
+  EXPECT_THAT(with_errors.output(), AllOf(HasSubstr("errors.yaml:3"), HasSubstr("grasp_offset")));
   const std::string file = folder.write("experiment.yaml", "simulatoin: {}\n");
   ChildProcess with_typo({kProgram, "--config", file});
   EXPECT_EQ(with_typo.wait(), 2);

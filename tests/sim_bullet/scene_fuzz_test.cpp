@@ -61,10 +61,11 @@ TEST(SceneFuzz, StaysFiniteAndTheBallTakesNoMoreThanTheHandCanGive) {
   for (int scene_number = 0; scene_number < kScenes; ++scene_number) {
     const config::Experiment fuzzed = randomExperiment(random);
     SceneStart start = restStart();
-    start.seed = scene_number;
+    start.seeds.scene = scene_number;
     Uncertainty uncertainty;
-    uncertainty.ball_offset_sd = 0.003;
-    uncertainty.opening_delay_sd = 0.003;
+    uncertainty.setNormal(Uncertainty::kThrow, Error::kGraspOffset, 0.003);
+    uncertainty.of(Uncertainty::kThrow, Error::kOpeningDelay).distribution = {
+        Distribution::Shape::kHalfNormal, 0.003, 0};
     Scene scene(fuzzed, settings, uncertainty, start);
     const Eigen::Vector4d tau =
         randomVector<Eigen::Vector4d>(random.engine(), Eigen::Vector4d::Constant(200));

@@ -234,9 +234,9 @@ uint64_t fingerprint(const Scene& scene, uint64_t hash) {
 
 uint64_t fingerprintOfAThrow(int64_t seed) {
   Uncertainty uncertainty;
-  uncertainty.ball_offset_sd = 1e-3;
+  uncertainty.setNormal(Uncertainty::kThrow, Error::kGraspOffset, 1e-3);
   SceneStart start = restStart();
-  start.seed = seed;
+  start.seeds.scene = seed;
   Scene scene(experiment(), simulation(), uncertainty, start);
   HandCommand command = graspCommand(3);
   uint64_t hash = 0xcbf29ce484222325ull;
@@ -260,11 +260,11 @@ TEST(Scene, RepeatsBitForBit) {
 
 TEST(Scene, ErrorsShowWhereTheyShould) {
   Uncertainty uncertainty;
-  uncertainty.ball_offset_sd = 3e-3;
-  uncertainty.encoder_bias_sd = 2e-3;
+  uncertainty.setNormal(Uncertainty::kThrow, Error::kGraspOffset, 3e-3);
+  uncertainty.setNormal(Uncertainty::kThrow, Error::kEncoderOffset, 2e-3);
   Scene scene(experiment(), simulation(), uncertainty, restStart());
-  EXPECT_GT(scene.errors().encoder_bias.norm(), 0);
-  EXPECT_LT((scene.state().q_arm - scene.state().q.arm - scene.errors().encoder_bias).norm(),
+  EXPECT_GT(scene.errors().encoder_offset.norm(), 0);
+  EXPECT_LT((scene.state().q_arm - scene.state().q.arm - scene.errors().encoder_offset).norm(),
             1e-15);
   EXPECT_LT((p_HBall(scene) - experiment().hand.p_HBall - scene.errors().ball_offset_H).norm(),
             1e-12);

@@ -23,7 +23,7 @@ inline const SimulationSettings& simulation() {
 }
 
 inline SceneStart restStart() {
-  return {1, experiment().q_rest, experiment().target};
+  return {{0, 1}, experiment().q_rest, experiment().target};
 }
 
 /// An entry of a vector, uniform in +-most.
