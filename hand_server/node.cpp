@@ -28,7 +28,7 @@ HandPlan fromMessage(const swing_plan_t& message) {
           message.grip_force,
           Eigen::Map<const Eigen::Vector2d>(message.q_wrist),
           model::SampledTrajectory(message.dt, std::move(samples)),
-          message.strategy == "tactile"};
+          message.strategy == "tactile" || message.strategy == "adaptive"};
 }
 
 class HandServerNode : public messaging::Node {

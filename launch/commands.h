@@ -21,6 +21,7 @@ void addReportCommand(CLI::App& app, int& exit_status);
 void addCalibrateCommand(CLI::App& app, int& exit_status);
 void addTrackCommand(CLI::App& app, int& exit_status);
 void addDoctorCommand(CLI::App& app, int& exit_status);
+void addCampaignCommand(CLI::App& app, int& exit_status);
 void addSpyCommand(CLI::App& app, int& exit_status);
 /// up, down, ps, hold
 void addSystemCommands(CLI::App& app, int& exit_status);

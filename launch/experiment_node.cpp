@@ -11,6 +11,7 @@ namespace fastball::launch {
 namespace {
 
 constexpr double kMicro = 1e6;
+constexpr const char* kAdaptive = "adaptive";
 const std::vector<std::string> kAll = {"planner",    "controller",     "hand_server",
                                        "sim_bullet", "vision_tracker", "logger"};
 
@@ -31,7 +32,10 @@ ExperimentNode::ExperimentNode(messaging::Endpoint& endpoint,
       plan_requests_(endpoint, messaging::kPlanRequest),
       throw_starts_(endpoint, messaging::kThrowStart),
       scenes_(endpoint, messaging::kScene),
-      estops_(endpoint, messaging::kEstop) {
+      estops_(endpoint, messaging::kEstop),
+      aim_(settings_.config.adaptive) {
+  if (settings_.strategy == kAdaptive && !settings_.learned.empty())
+    aim_.load(settings_.learned);
   endpoint_.subscribe<swing_plan_t>(messaging::kSwingPlan, [this](const auto& m) { hear(m); });
   endpoint_.subscribe<landing_t>(messaging::kLanding, [this](const auto& m) { hear(m); });
   endpoint_.subscribe<controller_status_t>(messaging::kControllerStatus,
@@ -174,6 +178,7 @@ void ExperimentNode::say() {
   switch (phase_) {
     case Phase::kPlanning: {
       plan_request_t message = planRequest(settings_, number_);
+      Eigen::Map<model::LandingBiases>(message.biases) = aim_.biases();
       plan_requests_.publish(message);
       break;
     }
@@ -208,6 +213,8 @@ void ExperimentNode::finishThrow() {
     seen.note += (seen.note.empty() ? "" : "; ") + why;
   }
   throws_.push_back(seen);
+  if (settings_.strategy == kAdaptive && seen.measured)
+    learn();
   throw_wall_s_.push_back(static_cast<double>(clock_.monotonicUs() - throw_began_us_) / kMicro);
   plan_.reset();
   landing_.reset();
@@ -218,6 +225,19 @@ void ExperimentNode::finishThrow() {
   }
   ++number_;
   enter(Phase::kPlanning);
+}
+
+void ExperimentNode::learn() {
+  const model::BallState release{Eigen::Map<const Eigen::Vector3d>(plan_->p_WBall_release),
+                                 Eigen::Map<const Eigen::Vector3d>(plan_->v_WBall_release)};
+  const double* cov = landing_->cov_landing;
+  const Eigen::Matrix2d covariance =
+      (Eigen::Matrix2d() << cov[0], cov[1], cov[1], cov[2]).finished();
+  aim_.observe(model::landingJacobian(release, settings_.target, settings_.ball, settings_.gravity),
+               Eigen::Map<const Eigen::Vector2d>(plan_->landing),
+               Eigen::Map<const Eigen::Vector2d>(landing_->landing), covariance);
+  if (!settings_.learned.empty())
+    aim_.save(settings_.learned);
 }
 
 void ExperimentNode::fail(const std::string& sentence) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "launch/aim_filter.h"
 #include "launch/results.h"
 #include "launch/roster.h"
 #include "launch/throw_script.h"
@@ -76,6 +77,8 @@ class ExperimentNode : public messaging::Node {
   std::string missing(const std::vector<std::string>& names, const std::string& state) const;
   std::string waitingFor() const;
   void heardProgress();
+  /// Strategy adaptive: the throw's landing tells where the next one would land.
+  void learn();
 
   messaging::Endpoint& endpoint_;
   const messaging::Clock& clock_;
@@ -94,6 +97,7 @@ class ExperimentNode : public messaging::Node {
   scene_t scene_{};  ///< for plan_
   std::optional<landing_t> landing_;
   controller_status_t status_{};
+  AimFilter aim_;
   std::string brake_message_;
   std::string error_;
   std::vector<Throw> throws_;

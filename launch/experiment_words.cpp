@@ -71,7 +71,10 @@ std::string ExperimentNode::missing(const std::vector<std::string>& names,
 }
 
 std::string ExperimentNode::withoutPlan() const {
-  return missing({"controller", "hand_server", "vision_tracker"}, "");
+  std::vector<std::string> names = {"controller", "hand_server"};
+  if (settings_.images)
+    names.emplace_back("vision_tracker");
+  return missing(names, "");
 }
 
 std::string ExperimentNode::withoutOrder() const {

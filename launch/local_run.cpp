@@ -42,8 +42,11 @@ void runInOneProcess(const RunSetup& setup,
   SkippingClock clock;
   messaging::LocalNetwork network(clock);
   std::vector<std::unique_ptr<messaging::Node>> nodes;
-  for (const auto make : {planner::makeNode, controller::makeNode, hand_server::makeNode,
-                          sim_bullet::makeNode, vision_tracker::makeNode}) {
+  std::vector makers = {planner::makeNode, controller::makeNode, hand_server::makeNode,
+                        sim_bullet::makeNode};
+  if (setup.options.images)
+    makers.push_back(vision_tracker::makeNode);
+  for (const auto make : makers) {
     messaging::Endpoint& endpoint = network.addEndpoint();
     nodes.push_back(make(endpoint, clock, setup.options));
     network.addNode(*nodes.back(), endpoint);

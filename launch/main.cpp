@@ -22,6 +22,7 @@ int fastballMain(int argc, char** argv) {
   app.require_subcommand(0, 1);
   int exit_status = kExitDone;
   fastball::launch::addRunCommand(app, exit_status);
+  fastball::launch::addCampaignCommand(app, exit_status);
   fastball::launch::addSystemCommands(app, exit_status);
   fastball::launch::addDoctorCommand(app, exit_status);
   fastball::launch::addSpyCommand(app, exit_status);

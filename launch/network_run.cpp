@@ -67,8 +67,9 @@ std::vector<ProcessCommand> commands(const RunSetup& setup) {
                                      {"planner", folder + "planner", shared},
                                      {"controller", folder + "controller", shared},
                                      {"hand_server", folder + "hand-server", shared},
-                                     {"sim_bullet", folder + "sim-bullet", shared},
-                                     {"vision_tracker", folder + "vision-tracker", shared}};
+                                     {"sim_bullet", folder + "sim-bullet", shared}};
+  if (setup.options.images)
+    all.push_back({"vision_tracker", folder + "vision-tracker", shared});
   for (ProcessCommand& command : all) {
     auto& arguments = command.arguments;
     if (command.name == kLogger) {
@@ -81,6 +82,8 @@ std::vector<ProcessCommand> commands(const RunSetup& setup) {
     }
     if (hearsCommands(command.name) && setup.key)
       arguments.insert(arguments.end(), {"--key", setup.options.key});
+    if (command.name == "sim_bullet" && !setup.options.images)
+      arguments.emplace_back("--no-images");
   }
   return all;
 }

@@ -108,6 +108,10 @@ void addRunCommand(CLI::App& app, int& exit_status) {
                       "Experiment file (default: config/experiment.yaml)");
   command->add_option("--uncertainty", options->uncertainty,
                       "File of errors that the simulator injects (default: none)");
+  CLI::Option* learned = command->add_option(
+      "--learned", options->learned,
+      "File that strategy adaptive keeps what it learns in, across runs; delete it to "
+      "begin anew (default: it begins anew in every run)");
   CLI::Option* log = command->add_option(
       "--log", options->log, "LCM log to write (default: runs/<time>-seed<seed>.lcmlog)");
   command->add_option("--json", options->json, "File for the results as one JSON object");
@@ -118,12 +122,17 @@ void addRunCommand(CLI::App& app, int& exit_status) {
   CLI::Option* key =
       command->add_option("--key", options->key, messaging::kKeyHelp)->option_text("FILE");
   CLI::Option* uncertainty = command->get_option("--uncertainty");
+  CLI::Option* no_images =
+      command->add_flag("--no-images", options->no_images,
+                        "No cameras and no tracker: a light curtain in the ring measures landings");
   command
       ->add_option("--system", options->system,
                    "Throw with the processes that 'fastball up FILE' has started")
       ->excludes(log)
       ->excludes(realtime)
       ->excludes(uncertainty)
+      ->excludes(learned)
+      ->excludes(no_images)
       ->excludes(url);
   command
       ->add_flag("--no-network", options->no_network,

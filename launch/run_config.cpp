@@ -4,6 +4,22 @@
 
 namespace fastball::launch {
 
+namespace {
+
+AimSettings readAdaptive(config::Section section) {
+  AimSettings aim;
+  aim.drag = section.number("drag", {0, 1});
+  aim.velocity = section.number("velocity", {0, 2});
+  aim.place = section.number("place", {0, 0.5});
+  aim.drift = section.number("drift", {0, 0.9});
+  aim.scatter = section.number("scatter", {1e-3, 0.5});
+  aim.gate = section.number("gate", {1, 20});
+  section.finish();
+  return aim;
+}
+
+}  // namespace
+
 RunConfig loadRunConfig(const std::string& experiment_path) {
   config::Section section = config::processSection(experiment_path, "run");
   RunConfig run;
@@ -18,6 +34,7 @@ RunConfig loadRunConfig(const std::string& experiment_path) {
   run.start_timeout = section.number("start_timeout", {0.1, 3600.0});
   run.listen_time = section.number("listen_time", {0.0, 60.0});
   run.stop_grace = section.number("stop_grace", {0.0, 60.0});
+  run.adaptive = readAdaptive(section.section("adaptive"));
   section.finish();
   return run;
 }

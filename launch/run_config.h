@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "launch/aim_filter.h"
+
 namespace fastball::launch {
 
 /// Strategies that a throw can be planned by.
-inline const std::vector<std::string> kStrategies = {"paper", "robust", "tactile"};
+inline const std::vector<std::string> kStrategies = {"paper", "robust", "tactile", "adaptive"};
 
 /// Section `run` of the experiment file: how the experiment is conducted.
 struct RunConfig {
@@ -21,6 +23,7 @@ struct RunConfig {
   double start_timeout = 0;    ///< [s] wall time until a started process must have said HEARTBEAT
   double listen_time = 0;      ///< [s] wall time, listening for another run before starting one
   double stop_grace = 0;       ///< [s] wall time from SIGINT to SIGKILL
+  AimSettings adaptive;
 };
 
 /// @throw config::ConfigError

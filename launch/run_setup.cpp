@@ -69,6 +69,7 @@ RunSetup prepareRun(const RunOptions& options) {
     setup.options.silence_limit = system.silence_limit;
   }
   setup.options.realtime = options.realtime;
+  setup.options.images = !options.no_images;
   setup.command_line = options.command_line;
   setup.options.uncertainty = absolutePath(options.uncertainty);
   setup.options.key = absolutePath(options.key);
@@ -77,6 +78,10 @@ RunSetup prepareRun(const RunOptions& options) {
   const config::Experiment experiment = config::loadExperiment(setup.options.config);
   setup.arm = experiment.arm.profile;
   setup.settings.throws = options.throws;
+  setup.settings.learned = absolutePath(options.learned);
+  setup.settings.ball = experiment.ball;
+  setup.settings.gravity = experiment.arm.gravity;
+  setup.settings.images = !options.no_images;
   setup.settings.seed = options.seed;
   setup.settings.q_rest = experiment.q_rest;
   setup.settings.target = experiment.target;
@@ -87,6 +92,8 @@ RunSetup prepareRun(const RunOptions& options) {
     requireReadable("--uncertainty", options.uncertainty);
   checkProcessSections(setup.options);
 
+  if (!options.learned.empty())
+    requireWritable("--learned", options.learned);
   if (!options.json.empty())
     requireWritable("--json", options.json);
   if (!options.no_network && !setup.on_system) {

@@ -17,10 +17,12 @@ struct RunOptions {
   std::string config;       ///< empty: the default experiment
   std::string uncertainty;  ///< empty: no errors are injected
   std::string key;          ///< file, empty: commands carry no tag
+  std::string learned;      ///< file of strategy adaptive; empty: it begins anew
   std::string log;          ///< empty: runs/<time>-seed<seed>.lcmlog
   std::string json;         ///< empty: none
   bool realtime = false;
   bool no_network = false;
+  bool no_images = false;
   std::string
       system;  ///< file of the system whose processes make the throws; empty: processes of its own
   std::string lcm_url;

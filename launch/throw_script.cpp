@@ -64,6 +64,7 @@ scene_t scene(const RunSettings& settings, int throw_number, const swing_plan_t&
   scene.utime = sceneUtime(settings, throw_number);
   scene.scene_id = messageNumber(settings, throw_number);
   scene.seed = throwSeed(settings.seed, throw_number);
+  scene.set_up_seed = settings.seed;
   Eigen::Map<Eigen::Vector4d>(scene.q_arm) = settings.q_rest;
   scene.duration = run.settle + std::max(plan_duration, t_landing + run.scene_tail);
   scene.camera_start = std::max(0.0, run.settle + plan.t_swing - run.camera_lead);

@@ -7,6 +7,7 @@
 
 #include "launch/run_config.h"
 #include "messaging/channels.h"
+#include "model/ball_parameters.h"
 #include "model/target.h"
 
 namespace fastball::launch {
@@ -21,6 +22,10 @@ struct RunSettings {
   Eigen::Vector4d q_rest = Eigen::Vector4d::Zero();  ///< [rad], where the arm rests before a throw
   model::Target target;
   RunConfig config;
+  std::string learned;  ///< file of strategy adaptive; empty: it begins anew
+  model::BallParameters ball;
+  double gravity = 9.81;  ///< [m/s^2]
+  bool images = true;     ///< false: the simulator says LANDING in the tracker's place
 };
 
 /// Seed of throw k = 1, 2, ... of a run: never negative, and unlike that of any other throw or run

@@ -122,7 +122,8 @@ std::optional<std::string> fault(const plan_request_t& m) {
   check.stamp(m)
       .atLeast("request_id", m.request_id, int64_t{1})
       .name("strategy", m.strategy)
-      .finite("q_arm", m.q_arm);
+      .finite("q_arm", m.q_arm)
+      .finite("biases", m.biases);
   return target(check, m).fault();
 }
 

@@ -112,7 +112,7 @@ bool lengthsFit<logger_status_t>(const void* data, int size) {
 
 template <>
 bool lengthsFit<plan_request_t>(const void* data, int size) {
-  return Walk(data, size).skip(4 * kInt64).string().skip(11 * kDouble).end();
+  return Walk(data, size).skip(4 * kInt64).string().skip(17 * kDouble).end();
 }
 
 template <>

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "config/experiment.h"
+#include "planner/aimed_plan.h"
 #include "planner/atlas_file.h"
 #include "planner/plan_message.h"
 #include "planner/planner.h"
@@ -23,7 +24,7 @@ bool sameQuestion(plan_request_t a, plan_request_t b) {
          std::equal(a.q_arm, a.q_arm + 4, b.q_arm) &&
          std::equal(a.p_WTarget, a.p_WTarget + 3, b.p_WTarget) &&
          std::equal(a.n_WTarget, a.n_WTarget + 3, b.n_WTarget) &&
-         a.target_radius == b.target_radius;
+         a.target_radius == b.target_radius && std::equal(a.biases, a.biases + 6, b.biases);
 }
 
 class PlannerNode : public messaging::Node {
@@ -82,7 +83,7 @@ class PlannerNode : public messaging::Node {
 
   void answer(const plan_request_t& request) {
     const int64_t start_us = clock_.monotonicUs();
-    const PlanResult result = planner_.plan(fromMessage(request));
+    const PlanResult result = planAimed(planner_, fromMessage(request));
     answered_ = Answered{request, toMessage(result, request)};
     answered_->plan.plan_ms = 1e-3 * static_cast<double>(clock_.monotonicUs() - start_us);
     plans_.publish(answered_->plan);

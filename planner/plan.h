@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/ball_flight.h"
+#include "model/landing_biases.h"
 #include "model/target.h"
 #include "model/trajectory.h"
 
@@ -16,16 +17,18 @@ namespace fastball::planner {
 
 /// What a plan is asked for.
 struct ThrowRequest {
-  std::string strategy;                             ///< "paper", "robust" or "tactile"
+  std::string strategy;                             ///< "paper", "robust", "tactile" or "adaptive"
   Eigen::Vector4d q_arm = Eigen::Vector4d::Zero();  ///< [rad], where the arm rests
   model::Target target;
   int64_t seed = 0;  ///< of the random starts
+  /// What the set-up adds to every throw, as far as is known.
+  model::LandingBiases biases = model::LandingBiases::Zero();
 };
 
-/// Whether throws of a strategy go through a release window where there is one: `robust`, and `tactile`, the same plan with a
-/// hand that learns.
+/// Whether throws of a strategy go through a release window where there is one: `robust`; `tactile`, the same
+/// plan with a hand that learns; `adaptive`, that with an aim that learns.
 inline bool seeksWindow(const std::string& strategy) {
-  return strategy == "robust" || strategy == "tactile";
+  return strategy == "robust" || strategy == "tactile" || strategy == "adaptive";
 }
 
 /// Sine of the least angle at which a ball may meet the plane of the ring, from its front.

@@ -55,6 +55,7 @@ ThrowRequest fromMessage(const plan_request_t& message) {
   request.target.p_WTarget = Eigen::Map<const Eigen::Vector3d>(message.p_WTarget);
   request.target.n_WTarget = Eigen::Map<const Eigen::Vector3d>(message.n_WTarget);
   request.target.radius = message.target_radius;
+  request.biases = Eigen::Map<const model::LandingBiases>(message.biases);
   return request;
 }
 

@@ -11,7 +11,7 @@
 namespace fastball::planner {
 namespace {
 
-constexpr const char* kStrategies = "paper, robust, tactile";
+constexpr const char* kStrategies = "paper, robust, tactile, adaptive";
 constexpr double kUnit = 1e-3;  // of a unit vector's length
 
 std::optional<std::string> targetFault(const model::Target& target) {

@@ -50,6 +50,7 @@ inline scene_t example() {
   scene_t m{};
   m.scene_id = 1;
   m.seed = -7;
+  m.set_up_seed = 7;
   m.duration = 3;
   m.camera_start = 1;
   m.camera_end = 2;

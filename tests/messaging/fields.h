@@ -51,7 +51,7 @@ inline std::vector<double*> numbers(estop_t& /*m*/) {
   return {};
 }
 inline std::vector<double*> numbers(plan_request_t& m) {
-  return of(m.q_arm, m.p_WTarget, m.n_WTarget, m.target_radius);
+  return of(m.q_arm, m.p_WTarget, m.n_WTarget, m.target_radius, m.biases);
 }
 inline std::vector<double*> numbers(swing_plan_t& m) {
   return of(m.plan_ms, m.t_ready, m.t_swing, m.t_swing_end, m.t_release_command, m.t_release,

@@ -66,7 +66,8 @@ TEST(Throws, AnotherSeedGivesOtherImages) {
 TEST(Throws, ADroppedBallIsAMissThatSaysWhyItWasNotMeasured) {
   const EditedConfig weak_grip("experiment.yaml", "grip_force: 6.0", "grip_force: 0.3");
   const std::string errors = weak_grip.experiment() + ".errors";
-  std::ofstream(errors) << "friction: [0.05, 0.06]\nball_offset_sd: 0.01\n";
+  std::ofstream(errors) << "throw:\n  friction: {uniform: [-0.94, -0.93], unit: relative}\n"
+                               "  grasp_offset: {normal: 0.01, unit: m}\n";
   const std::vector<std::string> command = {
       "run",           "--throws", "1", "--strategy", "paper", "--config", weak_grip.experiment(),
       "--uncertainty", errors};

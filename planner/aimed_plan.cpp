@@ -1,0 +1,52 @@
+#include "planner/aimed_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/landing_biases.h"
+
+namespace fastball::planner {
+namespace {
+
+/// No aim is farther [m] from the target's centre: beyond that it is the biases that are wrong.
+constexpr double kFarthestAim = 0.3;
+
+PlanResult planTowards(const Planner& planner,
+                       const ThrowRequest& request,
+                       const Eigen::Vector2d& aim) {
+  ThrowRequest aimed = request;
+  aimed.target.p_WTarget +=
+      aim.x() * request.target.rightAxis() + aim.y() * request.target.upAxis();
+  PlanResult result = planner.plan(aimed);
+  if (Plan* plan = std::get_if<Plan>(&result))
+    plan->landing += aim;
+  return result;
+}
+
+}  // namespace
+
+PlanResult planAimed(const Planner& planner, const ThrowRequest& request) {
+  PlanResult result = planner.plan(request);
+  Plan* plan = std::get_if<Plan>(&result);
+  if (plan == nullptr || request.biases.isZero())
+    return result;
+  const auto expected = [&](const Plan& of) -> Eigen::Vector2d {
+    return model::landingJacobian(of.release, request.target, planner.config().ball,
+                                  planner.config().arm.gravity) *
+           request.biases;
+  };
+  Eigen::Vector2d aim = -expected(*plan);
+  aim *= std::min(1.0, kFarthestAim / aim.norm());
+  for (const double share : {1.0, 0.5}) {
+    PlanResult aimed = planTowards(planner, request, share * aim);
+    if (std::holds_alternative<Plan>(aimed)) {
+      result = std::move(aimed);
+      break;
+    }
+  }
+  plan = &std::get<Plan>(result);
+  plan->landing += expected(*plan);
+  return result;
+}
+
+}  // namespace fastball::planner
