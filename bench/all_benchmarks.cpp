@@ -1,5 +1,6 @@
 #include "bench/contact_rows.h"
 #include "bench/key_rows.h"
+#include "bench/launch_rows.h"
 #include "bench/logger_rows.h"
 #include "bench/messaging_rows.h"
 #include "bench/model_rows.h"
@@ -16,10 +17,10 @@ namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some :
-       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), keyBenchmarks(),
-        loggerBenchmarks(), spyBenchmarks(), sceneBenchmarks(), visionBenchmarks(),
-        contactBenchmarks(), planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
+                           keyBenchmarks(), loggerBenchmarks(), spyBenchmarks(), launchBenchmarks(),
+                           sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
+                           planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

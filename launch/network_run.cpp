@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "launch/clock_check.h"
 #include "launch/experiment_node.h"
 #include "launch/key_check.h"
 #include "launch/processes.h"
@@ -42,14 +43,6 @@ constexpr const char* kLogger = "logger";
 double beat(double silence_limit) {
   return silence_limit > 0 ? silence_limit / messaging::kBeatsWithinLimit
                            : messaging::Heartbeat::kPeriod;
-}
-
-/// As HEARTBEAT names this machine.
-std::string hostName() {
-  std::array<char, messaging::kNameBytes + 1> host{};
-  if (gethostname(host.data(), host.size() - 1) != 0 || host[0] == '\0')
-    return "unknown";
-  return host.data();
 }
 
 /// The logger keeps all bytes as they come.
@@ -105,6 +98,7 @@ class NetworkRun {
         progress_(progress),
         endpoint_(setup.options.lcm_url, setup.key, "experiment"),
         roster_(endpoint_),
+        clocks_(endpoint_, clock_, roster_),
         silence_(endpoint_, clock_),
         experiment_(endpoint_, clock_, roster_, setup.settings),
         judge_(endpoint_),
@@ -144,6 +138,7 @@ class NetworkRun {
   void awaitRest();
   void watch();
   void watchPeers();
+  void checkClocks();
   bool isOurs(const heartbeat_t& heartbeat) const;
   void refuseStrangers() const;
   void refuseOtherKeys() const;
@@ -156,6 +151,7 @@ class NetworkRun {
   messaging::SystemClock clock_;
   messaging::LcmEndpoint endpoint_;
   Roster roster_;
+  ClockCheck clocks_;
   SilenceWatch silence_;
   std::optional<messaging::PeerWatch> watch_;  ///< with a silence limit
   ExperimentNode experiment_;
@@ -167,7 +163,7 @@ class NetworkRun {
   arm_state_t arm_{};  ///< the newest
   int64_t next_watch_us_ = INT64_MIN;
   bool conducting_ = false;
-  const std::string host_ = hostName();
+  const std::string host_ = messaging::hostName();
 };
 
 void NetworkRun::pump(bool act) {
@@ -272,10 +268,21 @@ void NetworkRun::startProcesses() {
 void NetworkRun::joinSystem() {
   awaitProcesses(peers_);
   pumpFor(kHeartbeatPeriod, false);  // everyone's newest
+  if (setup_.clock_limit > 0)
+    checkClocks();
   int64_t before = 0;
   for (const std::string& name : peers_)
     before = std::max(before, roster_.newest(name)->plan_id);
   experiment_.continueAfter(before);
+}
+
+void NetworkRun::checkClocks() {
+  while (!clocks_.update())
+    pump(false);
+  if (const std::string report = clocks_.report(); !report.empty())
+    progress_.line(report);
+  if (const std::string fault = clocks_.fault(setup_.clock_limit); !fault.empty())
+    throw std::runtime_error(fault);
 }
 
 void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {

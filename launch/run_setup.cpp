@@ -67,6 +67,7 @@ RunSetup prepareRun(const RunOptions& options) {
     const System system = loadSystem(options.system);
     setup.options.lcm_url = system.lcm_url;
     setup.options.silence_limit = system.silence_limit;
+    setup.clock_limit = system.clock_limit;
   }
   setup.options.realtime = options.realtime;
   setup.options.images = !options.no_images;

@@ -38,6 +38,7 @@ struct RunSetup {
   std::string log;                                   ///< path of the log, empty: none
   std::string command_line;                          ///< for the record beside the log
   bool on_system = false;                            ///< the processes are there already
+  double clock_limit = 0;  ///< [s], between this machine's clock and others; 0: not measured
 };
 
 /// Reads the experiment file with every process's section and checks all that can be checked before anything is started.

@@ -23,7 +23,8 @@ bool isInt64(const lcm_type_info_t& type, int index, const char* name) {
 }  // namespace
 
 bool hasManySenders(const std::string& channel) {
-  return channel == "HEARTBEAT" || channel == "CAMERA_INFO" || channel == "ESTOP";
+  return channel == "HEARTBEAT" || channel == "CAMERA_INFO" || channel == "CLOCK" ||
+         channel == "ESTOP";
 }
 
 bool SequenceGaps::hasSeq(const void* data, std::size_t size) {

@@ -41,6 +41,7 @@ inline constexpr Channel<ball_observation_t> kBallObservation{"BALL_OBSERVATION"
 inline constexpr Channel<ball_track_t> kBallTrack{"BALL_TRACK", kControlBytes};
 inline constexpr Channel<landing_t> kLanding{"LANDING", kControlBytes};
 inline constexpr Channel<logger_status_t> kLoggerStatus{"LOGGER_STATUS", kControlBytes};
+inline constexpr Channel<clock_probe_t> kClock{"CLOCK", kControlBytes, false};
 inline constexpr Channel<heartbeat_t> kHeartbeat{"HEARTBEAT", kControlBytes, false};
 
 }  // namespace fastball::messaging

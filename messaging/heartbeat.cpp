@@ -14,18 +14,18 @@ namespace {
 /// In front of the key's name in HEARTBEAT's version.
 const std::string kKey = ", key ";
 
+bool sameWords(const NodeState& a, const NodeState& b) {
+  return a.state == b.state && a.detail == b.detail && a.plan_id == b.plan_id;
+}
+
+}  // namespace
+
 std::string hostName() {
   std::array<char, kNameBytes + 1> name{};
   if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0')
     return "unknown";
   return name.data();
 }
-
-bool sameWords(const NodeState& a, const NodeState& b) {
-  return a.state == b.state && a.detail == b.detail && a.plan_id == b.plan_id;
-}
-
-}  // namespace
 
 Heartbeat::Heartbeat(Endpoint& endpoint,
                      const Clock& clock,

@@ -8,6 +8,9 @@
 
 namespace fastball::messaging {
 
+/// This machine, as HEARTBEAT and CLOCK name it.
+std::string hostName();
+
 /// Says HEARTBEAT for a node: once a period and whenever its state(), detail or plan_id change.
 class Heartbeat {
  public:

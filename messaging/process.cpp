@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "messaging/clock_survey.h"
 #include "messaging/heartbeat.h"
 #include "messaging/peer_watch.h"
 #include "messaging/stop_signals.h"
@@ -133,6 +134,7 @@ int runOverLcm(Node& node,
   const double period = silence_limit > 0 ? silence_limit / kBeatsWithinLimit : Heartbeat::kPeriod;
   Heartbeat heartbeat(endpoint, clock, node, period, endpoint.keyId());
   Watch watch(node, endpoint, clock, silence_limit);
+  const ClockAnswer answer(endpoint, clock, node.name());
   try {
     loop(node, endpoint, clock, duration_s, heartbeat, watch, signals);
   } catch (const std::exception& error) {

@@ -38,5 +38,6 @@ std::optional<std::string> fault(const ball_track_t& message);
 std::optional<std::string> fault(const landing_t& message);
 std::optional<std::string> fault(const logger_status_t& message);
 std::optional<std::string> fault(const heartbeat_t& message);
+std::optional<std::string> fault(const clock_probe_t& message);
 
 }  // namespace fastball::messaging

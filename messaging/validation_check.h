@@ -121,6 +121,10 @@ class Check {
       fail("{} is empty", field);
     return this->text(field, text, kNameBytes);
   }
+  /// A name, or nothing.
+  Check& shortText(const char* field, const std::string& text) {
+    return this->text(field, text, kNameBytes);
+  }
   Check& sentence(const char* field, const std::string& text) {
     return this->text(field, text, kSentenceBytes);
   }

@@ -128,4 +128,13 @@ std::optional<std::string> fault(const heartbeat_t& m) {
       .fault();
 }
 
+std::optional<std::string> fault(const clock_probe_t& m) {
+  Check check("CLOCK");
+  check.stamp(m).name("name", m.name).name("host", m.host).atLeast<int32_t>("pid", m.pid, 0);
+  check.shortText("asker_host", m.asker_host).atLeast<int32_t>("asker_pid", m.asker_pid, 0);
+  return check.notNegative("asked_utime", m.asked_utime)
+      .notNegative("heard_utime", m.heard_utime)
+      .fault();
+}
+
 }  // namespace fastball::messaging

@@ -82,6 +82,17 @@ bool lengthsFit<estop_t>(const void* data, int size) {
 }
 
 template <>
+bool lengthsFit<clock_probe_t>(const void* data, int size) {
+  return Walk(data, size)
+      .skip(2 * kInt64)
+      .strings(2)
+      .skip(kInt32)
+      .strings(1)
+      .skip(kInt32 + 2 * kInt64)
+      .end();
+}
+
+template <>
 bool lengthsFit<heartbeat_t>(const void* data, int size) {
   return Walk(data, size)
       .skip(2 * kInt64)

@@ -20,6 +20,8 @@ bool lengthsFit<ball_observation_t>(const void* data, int size);
 template <>
 bool lengthsFit<camera_info_t>(const void* data, int size);
 template <>
+bool lengthsFit<clock_probe_t>(const void* data, int size);
+template <>
 bool lengthsFit<controller_status_t>(const void* data, int size);
 template <>
 bool lengthsFit<estop_t>(const void* data, int size);

@@ -9,12 +9,14 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "messaging/channels.h"
+#include "messaging/clock.h"
+#include "messaging/clock_survey.h"
 #include "messaging/lcm_endpoint.h"
 #include "messaging/multicast_check.h"
 
@@ -28,9 +30,10 @@ constexpr int kRounds = 200;
 constexpr double kPatience = 1;         // [s], for a message to ourselves
 constexpr double kSlowRound = 2e-3;     // [s], of the worst: two ticks
 constexpr double kHeartbeatTime = 1.2;  // [s], HEARTBEAT comes once a second
-constexpr double kClockOff = 5e-3;      // [s]: a ball of 6 m/s moves 3 cm
-constexpr std::size_t kImage = 60000;   // [bytes], the largest message
-constexpr std::size_t kPacket = 1400;   // [bytes], that go through any network in one piece
+constexpr auto kAskInterval = std::chrono::milliseconds(100);
+constexpr double kClockOff = 5e-3;     // [s]: a ball of 6 m/s moves 3 cm
+constexpr std::size_t kImage = 60000;  // [bytes], the largest message
+constexpr std::size_t kPacket = 1400;  // [bytes], that go through any network in one piece
 constexpr const char* kChannel = "DOCTOR";
 
 messaging::MulticastUrl parse(const std::string& text) {
@@ -119,6 +122,19 @@ Finding roundTrip(const std::string& url, std::size_t size) {
   return finding;
 }
 
+Finding clockFinding(const std::string& host, const messaging::HostClock& measured) {
+  Finding clock{"clock of " + host, Verdict::kGood,
+                fmt::format("{:+.2f} ms from ours, to {:.2f} ms, by {} questions and answers",
+                            measured.offset * 1e3, measured.error * 1e3, measured.answers),
+                ""};
+  if (std::abs(measured.offset) - measured.error > kClockOff) {
+    clock.verdict = Verdict::kBad;
+    clock.value += fmt::format(", {} ms are allowed", kClockOff * 1e3);
+    clock.mend = "sudo apt install chrony   # on both, with one server";
+  }
+  return clock;
+}
+
 }  // namespace
 
 Findings checkRoute(const std::string& lcm_url) {
@@ -186,51 +202,35 @@ Findings checkReceiveBuffer(const std::string& lcm_url) {
 }
 
 Findings checkOthers(const std::string& lcm_url) {
-  struct Other {
-    std::string host;
-    double offset = 0;  ///< [s], smallest seen: a message cannot arrive before it is sent
-  };
   messaging::LcmEndpoint endpoint(lcm_url);
-  std::map<std::string, Other> others;
-  endpoint.subscribeRaw(
-      "HEARTBEAT", [&](const std::string&, const void* data, std::size_t size, int64_t utime) {
-        heartbeat_t m{};
-        if (messaging::messageType<heartbeat_t>().decode(&m, data, static_cast<int>(size)) < 0 ||
-            messaging::fault(m))
-          return;
-        const double offset = (static_cast<double>(utime) - static_cast<double>(m.utime)) * 1e-6;
-        const auto [other, is_new] = others.try_emplace(
-            fmt::format("{} ({}, process {})", m.name, m.host, m.pid), Other{m.host, offset});
-        if (!is_new && std::abs(offset) < std::abs(other->second.offset))
-          other->second.offset = offset;
-      });
-  const auto end = Steady::now() + std::chrono::duration<double>(kHeartbeatTime);
-  while (Steady::now() < end) {
+  const messaging::SystemClock clock;
+  messaging::ClockSurvey survey(endpoint, clock);
+  std::set<std::string> processes, hosts;
+  endpoint.subscribe<heartbeat_t>(messaging::kHeartbeat, [&](const heartbeat_t& m) {
+    processes.insert(fmt::format("{} ({}, process {})", m.name, m.host, m.pid));
+    hosts.insert(m.host);
+  });
+  const auto start = Steady::now();
+  for (auto next = start; Steady::now() - start < std::chrono::duration<double>(kHeartbeatTime);) {
+    if (Steady::now() >= next) {
+      survey.ask();
+      next += kAskInterval;
+    }
     pollfd wait{endpoint.fileDescriptor(), POLLIN, 0};
     poll(&wait, 1, 20);
     endpoint.drain();
   }
   Findings findings;
-  std::map<std::string, double> clocks;
-  for (const auto& [name, other] : others) {
-    const auto [clock, is_new] = clocks.try_emplace(other.host, other.offset);
-    if (!is_new && std::abs(other.offset) < std::abs(clock->second))
-      clock->second = other.offset;
+  for (const std::string& name : processes)
     findings.push_back({"heard", Verdict::kGood, name, ""});
-  }
-  if (others.empty())
+  if (processes.empty())
     findings.push_back({"heard", Verdict::kGood, "nobody else on " + endpoint.url(), ""});
-  for (const auto& [host, offset] : clocks) {
-    Finding clock{"clock of " + host, Verdict::kGood,
-                  fmt::format("{:.1f} ms from ours, to the time that a message takes",
-                              std::abs(offset) * 1e3),
-                  ""};
-    if (std::abs(offset) > kClockOff) {
-      clock.verdict = Verdict::kBad;
-      clock.value += fmt::format(", {} ms are allowed", kClockOff * 1e3);
-      clock.mend = "sudo apt install chrony   # on both, with one server";
-    }
-    findings.push_back(clock);
+  for (const std::string& host : hosts) {
+    const auto answer = survey.clocks().find(host);
+    if (answer == survey.clocks().end())
+      findings.push_back({"clock of " + host, Verdict::kRemark, "it does not answer on CLOCK", ""});
+    else
+      findings.push_back(clockFinding(host, answer->second));
   }
   return findings;
 }

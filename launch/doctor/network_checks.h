@@ -16,7 +16,7 @@ Findings checkRoundTrip(const std::string& lcm_url);
 /// What the kernel keeps for a receiver that is busy: its limit, and how many bytes of images arrived of a burst nobody read.
 Findings checkReceiveBuffer(const std::string& lcm_url);
 
-/// Listens to HEARTBEATs for a second: who is there, and how far each host's clock is from ours (to the time that a message takes).
+/// Listens to HEARTBEATs for a second: who is there, and how far each host's clock is from ours, by questions and answers.
 Findings checkOthers(const std::string& lcm_url);
 
 }  // namespace fastball::launch

@@ -31,7 +31,8 @@ Supervisor::Supervisor(System system, StateFolder& folder, Listener listener)
       folder_(folder),
       listener_(std::move(listener)),
       endpoint_(system_.lcm_url),
-      roster_(endpoint_) {
+      roster_(endpoint_),
+      clocks_(endpoint_, clock_, roster_) {
   for (const SystemProcess& process : system_.processes) {
     members_.emplace_back();
     members_.back().process = process;
@@ -121,7 +122,7 @@ void Supervisor::tick() {
   const bool ready = std::all_of(members_.begin(), members_.end(), [](const Member& member) {
     return member.state == State::kReady;
   });
-  if (ready && !announced_) {
+  if (ready && !announced_ && !stopping_ && checkClocks()) {
     announced_ = true;
     writeState();
     listener_.ready();
@@ -130,6 +131,18 @@ void Supervisor::tick() {
     next_write_ = now + kWriteInterval;
     writeState();
   }
+}
+
+bool Supervisor::checkClocks() {
+  if (system_.clock_limit == 0)
+    return true;
+  if (!clocks_.update())
+    return false;
+  if (const std::string report = clocks_.report(); !report.empty())
+    say(report);
+  failure_ = clocks_.fault(system_.clock_limit);
+  stopping_ = !failure_.empty();
+  return !stopping_;
 }
 
 void Supervisor::look(Member& member) {

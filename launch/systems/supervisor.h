@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "launch/clock_check.h"
 #include "launch/roster.h"
 #include "launch/systems/held_process.h"
 #include "launch/systems/state_folder.h"
@@ -56,6 +57,8 @@ class Supervisor {
   void enter(Member& member, State state);
   void stopNext();
   bool anyHeld() const;
+  /// Measures the other machines' clocks. @return true when nothing is left to be done before the system is ready.
+  bool checkClocks();
   void failBeforeReady(const Member& member, const std::string& what);
   void say(const std::string& line) const { listener_.line(line); }
   void writeState() const;
@@ -65,7 +68,9 @@ class Supervisor {
   Listener listener_;
   boost::asio::io_context context_;
   messaging::LcmEndpoint endpoint_;
+  messaging::SystemClock clock_;
   Roster roster_;
+  ClockCheck clocks_;
   std::vector<Member> members_;
   Steady::time_point next_beat_, next_write_;
   bool announced_ = false;

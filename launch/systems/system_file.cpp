@@ -16,6 +16,9 @@ namespace {
 using config::Section;
 
 constexpr const char* kHere = "here";
+// Of a system on several machines. Simulated time comes in messages; what is dated by clocks of several machines are HEARTBEATs, and
+// their order must be that in which they were said: half of the time between two. Real cameras need less.
+constexpr double kClockLimit = 0.05;  // [s]
 // Of a system on several machines. A HEARTBEAT every 100 ms is then 5 kB/s for the whole experiment, and four in a row are not
 // lost by chance.
 constexpr double kSilenceLimit = 0.5;  // [s]
@@ -143,6 +146,9 @@ System loadSystem(const std::string& path) {
           "name", fmt::format("is '{}', as that of another process", system.processes.back().name));
   }
   readSilenceLimit(file, system);
+  system.clock_limit = file.has("clock_limit")   ? file.number("clock_limit", {0, 3600})
+                       : system.isOnOneMachine() ? 0
+                                                 : kClockLimit;
   file.finish();
   if (system.processes.empty())
     throw file.error("processes", "must name a process");

@@ -45,6 +45,8 @@ struct System {
   /// [s], how soon the processes and a run on them notice that one is silent; 0: never. Every process gets it as
   /// FASTBALL_SILENCE_LIMIT.
   double silence_limit = 0;
+  double clock_limit =
+      0;  ///< [s], between the launcher's clock and that of another machine; 0: not measured
   std::vector<SystemProcess> processes;
 
   bool isOnOneMachine() const;

@@ -10,6 +10,7 @@
 
 #include "messaging/lcm_endpoint.h"
 #include "tests/config/temporary_folder.h"
+#include "tests/kit/unreliable_relay.h"
 
 namespace fastball::test_kit {
 namespace {
@@ -79,6 +80,30 @@ TEST_F(HostsTest, HaveNamesAndProgramsOfTheirOwn) {
   EXPECT_EQ(hosts->run("robot", {"sh", "-c", "test $(hostname) = robot"}), 0);
   EXPECT_EQ(hosts->run("vision", {"sh", "-c", "exit 3"}), 3);
   EXPECT_EQ(hosts->run("vision", {hosts->sshStandIn(), "robot", "test $(hostname) = robot"}), 0);
+}
+
+TEST(UnreliableRelayTest, DelaysEveryMessage) {
+  const std::string near = "udpm://239.255.76.67:7668?ttl=0",
+                    far = "udpm://239.255.76.67:7669?ttl=0";
+  Mischief slow;
+  slow.delay = 0.2;
+  const UnreliableRelay relay(near, far, slow);
+  messaging::LcmEndpoint speaker(near), listener(far);
+  Steady::time_point said, heard;
+  listener.subscribeRaw(kChannel, [&heard](const std::string&, const void*, std::size_t, int64_t) {
+    heard = Steady::now();
+  });
+  // Again until the relay is there.
+  const auto end = Steady::now() + std::chrono::seconds(20);
+  for (int i = 0; heard == Steady::time_point() && Steady::now() < end; ++i) {
+    if (i == 0)
+      said = Steady::now();
+    if (i % 50 == 0)
+      speaker.publishBytes(kChannel, "x", 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    listener.drain();
+  }
+  EXPECT_GE(heard - said, std::chrono::milliseconds(200));
 }
 
 TEST_F(HostsTest, LoseTheShareOfPacketsThatIsAskedFor) {

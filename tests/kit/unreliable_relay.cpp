@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <array>
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -15,6 +16,8 @@
 
 namespace fastball::test_kit {
 namespace {
+
+using Steady = std::chrono::steady_clock;
 
 struct Message {
   std::string channel;
@@ -55,6 +58,24 @@ class Side {
   std::unordered_map<std::size_t, int> own_;  ///< said and not yet heard
 };
 
+/// What is on its way to a side, in order.
+class Cable {
+ public:
+  explicit Cable(double delay)
+      : delay_(std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(delay))) {
+  }
+  void put(const Message& message) { under_way_.emplace_back(Steady::now() + delay_, message); }
+  void deliver(Side& side) {
+    for (; !under_way_.empty() && under_way_.front().first <= Steady::now(); under_way_.pop_front())
+      side.say(under_way_.front().second);
+  }
+  bool isEmpty() const { return under_way_.empty(); }
+
+ private:
+  Steady::duration delay_;
+  std::deque<std::pair<Steady::time_point, Message>> under_way_;
+};
+
 }  // namespace
 
 UnreliableRelay::UnreliableRelay(const std::string& url_a,
@@ -71,6 +92,7 @@ void UnreliableRelay::work(const std::string& url_a,
                            const std::string& url_b,
                            const Mischief& mischief) {
   std::array<Side, 2> sides = {Side(url_a), Side(url_b)};
+  std::array<Cable, 2> cables = {Cable(mischief.delay), Cable(mischief.delay)};
   std::array<std::optional<Message>, 2> held_back;  // to the side of the same index
   std::mt19937_64 random(mischief.seed);
   const auto happens = [&random](double share) {
@@ -79,7 +101,7 @@ void UnreliableRelay::work(const std::string& url_a,
   while (!end_) {
     std::array<pollfd, 2> waits = {pollfd{sides[0].fileDescriptor(), POLLIN, 0},
                                    pollfd{sides[1].fileDescriptor(), POLLIN, 0}};
-    poll(waits.data(), waits.size(), 20);
+    poll(waits.data(), waits.size(), cables[0].isEmpty() && cables[1].isEmpty() ? 20 : 1);
     for (const std::size_t from : {0, 1}) {
       const std::size_t to = 1 - from;
       for (const Message& message : sides[from].hear()) {
@@ -92,12 +114,13 @@ void UnreliableRelay::work(const std::string& url_a,
           held_back[to] = message;
           continue;
         }
-        sides[to].say(message);
+        cables[to].put(message);
         if (happens(mischief.duplicated))
-          sides[to].say(message);
+          cables[to].put(message);
         if (held_back[to])
-          sides[to].say(*std::exchange(held_back[to], std::nullopt));
+          cables[to].put(*std::exchange(held_back[to], std::nullopt));
       }
+      cables[to].deliver(sides[to]);
     }
   }
 }

@@ -12,6 +12,7 @@ struct Mischief {
   double lost = 0;
   double duplicated = 0;
   double reordered = 0;  ///< held back until the next message has passed
+  double delay = 0;      ///< [s], of every message
   uint64_t seed = 1;
 };
 

@@ -80,6 +80,16 @@ TEST_F(SystemFile, SeveralMachinesHaveASilenceLimitThatEveryProcessIsTold) {
               HasSubstr("key 'silence_limit': is 0.05 s, must be 0 (none) or at least 0.1 s"));
 }
 
+TEST_F(SystemFile, ClocksOfSeveralMachinesHaveALimit) {
+  const std::string process = "processes: [{name: a, command: [x]}]\n";
+  EXPECT_EQ(load(process).clock_limit, 0);
+  EXPECT_EQ(load("clock_limit: 0.001\n" + process).clock_limit, 0.001);
+  EXPECT_EQ(load("hosts: [{name: robot}]\nlcm_url: udpm://239.255.76.67:7667?ttl=1\n"
+                 "processes: [{name: a, host: robot, command: [x]}]\n")
+                .clock_limit,
+            0.05);
+}
+
 TEST(ShippedSystems, CanBeRead) {
   const std::string folder = FASTBALL_SOURCE_DIR "/config/systems/";
   EXPECT_EQ(loadSystem(folder + "one-machine.yaml").processes.size(), 6u);

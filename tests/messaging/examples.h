@@ -194,4 +194,18 @@ inline heartbeat_t example() {
   return m;
 }
 
+template <>
+inline clock_probe_t example() {
+  clock_probe_t m{};
+  m.utime = 30;
+  m.name = "planner";
+  m.host = "bench";
+  m.pid = 17;
+  m.asker_host = "desk";
+  m.asker_pid = 18;
+  m.asked_utime = 10;
+  m.heard_utime = 20;
+  return m;
+}
+
 }  // namespace fastball::messaging::examples

@@ -90,4 +90,8 @@ inline std::vector<double*> numbers(heartbeat_t& m) {
   return of(m.loop_mean_us, m.loop_max_us);
 }
 
+inline std::vector<double*> numbers(clock_probe_t& /*m*/) {
+  return {};
+}
+
 }  // namespace fastball::messaging::examples

@@ -68,7 +68,8 @@ using Types = ::testing::Types<arm_state_t,
                                ball_track_t,
                                landing_t,
                                logger_status_t,
-                               heartbeat_t>;
+                               heartbeat_t,
+                               clock_probe_t>;
 
 struct TypeName {
   template <class T>
@@ -199,6 +200,7 @@ TEST(ControlMessages, FitOneFrameAtTheirWorst) {
     m.name = m.host = m.version = m.state = name;
     m.detail = sentence;
   });
+  add(example<clock_probe_t>(), [&](auto& m) { m.name = m.host = m.asker_host = name; });
   EXPECT_THAT(sizes, ::testing::Each(::testing::Le(kControlBytes)));
 }
 
