@@ -267,7 +267,8 @@ void NetworkRun::startProcesses() {
 
 void NetworkRun::joinSystem() {
   awaitProcesses(peers_);
-  pumpFor(kHeartbeatPeriod, false);  // everyone's newest
+  // Everyone's newest; a few beats where one may be lost on the way.
+  pumpFor(watch_ ? 3 * beat(setup_.options.silence_limit) : kHeartbeatPeriod, false);
   if (setup_.clock_limit > 0)
     checkClocks();
   int64_t before = 0;

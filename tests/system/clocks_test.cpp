@@ -108,16 +108,14 @@ TEST_F(Clocks, ThatAreTooFarOffAreNamedByTheRunAndNothingIsThrown) {
       "system.yaml", fmt::format("lcm_url: '{}'\nclock_limit: 0.5\nprocesses:\n"
                                  "  - {{name: planner, command: [fastball-planner]}}\n",
                                  url_));
-  for (const double ahead : {2.0, -3.0}) {
-    const Elsewhere peers(url_, machines(ahead));
-    const Outcome outcome = fastball({"run", "--system", file, "--throws", "1"});
-    EXPECT_EQ(outcome.exit_status, 1);
-    EXPECT_THAT(outcome.output, HasSubstr("the clock of vision is "));
-    EXPECT_THAT(outcome.output,
-                HasSubstr(ahead > 0 ? " ms ahead of that of " : " ms behind that of "));
-    EXPECT_THAT(outcome.output, HasSubstr("clock_limit is 500.0 ms"));
-    EXPECT_THAT(outcome.output, Not(HasSubstr("throw 1")));
-  }
+  const Elsewhere peers(url_, machines(-3.0));
+  const Outcome outcome = fastball({"run", "--system", file, "--throws", "1"});
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("clocks: operator "));
+  EXPECT_THAT(outcome.output, HasSubstr("the clock of vision is "));
+  EXPECT_THAT(outcome.output, HasSubstr(" ms behind that of "));
+  EXPECT_THAT(outcome.output, HasSubstr("clock_limit is 500.0 ms"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("throw 1")));
 }
 
 TEST_F(Clocks, ThatAreTooFarOffAreNamedByUp) {
@@ -133,7 +131,8 @@ TEST_F(Clocks, ThatAreTooFarOffAreNamedByUp) {
   peers.talks_ = true;
   const Outcome outcome = up.wait();
   EXPECT_EQ(outcome.exit_status, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("the clock of vision is 2"));
+  EXPECT_THAT(outcome.output,
+              testing::ContainsRegex("the clock of vision is [12][0-9]*\\.[0-9] ms ahead of"));
 }
 
 TEST_F(Clocks, AreMeasuredByTheDoctorToWhatTheNetworkAllows) {

@@ -20,9 +20,11 @@ class RealSsh : public ThreeHosts {
   }
   nlohmann::json process(const std::string& name) const {
     const Outcome list = fastball({"ps", file_, "--json"}, hosts_->enter("operator"));
-    for (const nlohmann::json& process : nlohmann::json::parse(list.output).at("processes"))
+    const nlohmann::json state = nlohmann::json::parse(list.output);
+    for (const nlohmann::json& process : state.at("processes"))
       if (process.at("name") == name)
         return process;
+    ADD_FAILURE() << name << " is not among " << list.output;
     return {};
   }
 
@@ -48,7 +50,8 @@ TEST_F(RealSsh, StartsASystemOnThreeMachinesThatThrowsAndEndsWhatIsCutOff) {
   EXPECT_TRUE(isRunning(controller));
   while (process("vision_tracker").at("state") != "ended")
     pause();
-  EXPECT_THAT(process("vision_tracker").at("note").get<std::string>(), HasSubstr("reached"));
+  EXPECT_THAT(process("vision_tracker").at("note").get<std::string>(),
+              HasSubstr("the connection ended"));
   down();
   EXPECT_FALSE(isRunning(controller));
 }
