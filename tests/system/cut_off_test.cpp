@@ -113,6 +113,8 @@ class CutOff : public ThreeHosts {
   void expectArmAtRest() const;
   void expectRecovered();
   void expectReadableLog() const;
+  /// In a HEARTBEAT since the cut.
+  bool robotSaid(const std::string& words, const std::string& state = "") const;
 
   std::map<std::string, std::unique_ptr<Ear>> ears_;
   int64_t cut_us_ = 0;  ///< [us since 1970], of the last cut
@@ -200,6 +202,14 @@ void CutOff::cutOff(const std::string& host) {
   hosts_->restoreLink(host);
 }
 
+bool CutOff::robotSaid(const std::string& words, const std::string& state) const {
+  const auto beats = ears_.at("robot")->beats("robot/sim_bullet");
+  return std::any_of(beats.begin(), beats.end(), [&](const heartbeat_t& beat) {
+    return beat.utime >= cut_us_ && beat.detail.find(words) != std::string::npos &&
+           (state.empty() || beat.state == state);
+  });
+}
+
 /// Nobody's HEARTBEAT says any more that somebody is silent; but those who stopped for it remember why until the next throw.
 void CutOff::expectRecovered() {
   const std::string words = "nothing has been heard";
@@ -247,14 +257,13 @@ TEST_F(CutOff, InRealTimeTheRobotBrakesByItself) {
                                   {"vision_tracker", "vision"}},
                                  ", --realtime"));
   for (const std::string& host : kHosts) {
-    ASSERT_NO_FATAL_FAILURE(cutOff(host));
-    const auto beats = ears_.at("robot")->beats("robot/sim_bullet");
-    const bool braked = std::any_of(beats.begin(), beats.end(), [this](const heartbeat_t& beat) {
-      return beat.utime >= cut_us_ &&
-             beat.detail.find("braking: no ARM_COMMAND for more than 20 ms") != std::string::npos;
-    });
+    do {
+      ASSERT_NO_FATAL_FAILURE(cutOff(host));
+    } while (
+        !robotSaid("", "running"));  // cut off too late, when the throw was over: a busy machine
     // Where the link between the two holds, the controller brakes the arm.
-    EXPECT_TRUE(braked || host == "vision") << host;
+    EXPECT_TRUE(robotSaid("braking: no ARM_COMMAND for more than 20 ms") || host == "vision")
+        << host;
   }
   down();
   expectReadableLog();
