@@ -123,6 +123,8 @@ Hosts::Hosts(const std::vector<std::string>& names)
                     address(name)));
     cases += fmt::format("  {}) pid={};;\n", name, machine.holder.id());
   }
+  for (const std::string& name : names)
+    awaitLink(name);
   std::ofstream(sshStandIn()) << "#!/bin/sh\ncase $1 in\n"
                               << cases
                               << "  *) echo \"no host $1\" >&2; exit 255;;\nesac\n"
@@ -195,6 +197,24 @@ void Hosts::cutLink(const std::string& host) const {
 
 void Hosts::restoreLink(const std::string& host) const {
   switch_->must(fmt::format("ip link set port{} up", machine(host).number));
+  awaitLink(host);
+}
+
+void Hosts::awaitLink(const std::string& host) const {
+  // The kernel takes a new carrier to notice in its own time, and drops what is sent before.
+  const auto up = [](const Machine& where, const std::string& device) {
+    where.must(
+        fmt::format("for i in $(seq 1000); do ip link show {0} | grep -q 'state UP' && exit; sleep "
+                    "0.01; done; exit 1",
+                    device));
+  };
+  up(machine(host), "eth0");
+  up(*switch_, fmt::format("port{}", machine(host).number));
+  switch_->must(
+      fmt::format("for i in $(seq 1000); do bridge link show dev port{} | grep -q 'state "
+                  "forwarding' && exit; sleep 0.01; "
+                  "done; exit 1",
+                  machine(host).number));
 }
 
 void Hosts::losePackets(const std::string& host, double share) const {

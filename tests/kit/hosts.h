@@ -53,6 +53,8 @@ class Hosts {
  private:
   struct Machine;
   const Machine& machine(const std::string& host) const;
+  /// Returns when packets pass.
+  void awaitLink(const std::string& host) const;
   void signalAll(const Machine& machine, int number) const;
 
   std::unique_ptr<Machine> switch_;
