@@ -36,9 +36,12 @@ struct Options {
   StudyRequest study;
   std::string folder, json, csv;
   int jobs = 1;
+  std::string engine = "local";
+  SlurmOptions slurm;
 };
 
 constexpr int kMostThrows = 1000000;
+constexpr int kDefaultParts = 16;
 constexpr int64_t kCountIntervalUs = 1000000;
 
 std::string timeLeft(double seconds) {
@@ -87,14 +90,19 @@ double work(const Options& options, const Campaign& campaign, Progress& progress
   const int64_t begun_us = clock.monotonicUs();
   int64_t next_us = begun_us;
   const auto seconds = [&] { return 1e-6 * static_cast<double>(clock.monotonicUs() - begun_us); };
-  const std::vector<std::string> faults = workLocally(options.folder, todo, options.jobs, [&] {
+  const auto watch = [&] {
     if (clock.monotonicUs() >= next_us) {
       progress.status(progressText(campaign, readRecord(options.folder), before, seconds()),
                       clock.monotonicUs());
       next_us = clock.monotonicUs() + kCountIntervalUs;
     }
     return !signals.received();
-  });
+  };
+  const std::vector<std::string> faults =
+      options.engine == "slurm"
+          ? workWithSlurm(options.folder, todo, options.slurm, watch,
+                          [&](const std::string& text) { progress.line(text); })
+          : workLocally(options.folder, todo, options.jobs, watch);
   if (signals.received())
     throw std::runtime_error(fmt::format(
         "interrupted; the same command with --folder {} goes on from here", options.folder));
@@ -114,6 +122,12 @@ void writeFiles(const Options& options,
     writeJson(object, options.json);
   if (!options.csv.empty())
     writeThrowsCsv(campaign, record, options.csv);
+}
+
+std::string workersText(const Options& options) {
+  if (options.engine == "slurm")
+    return "by Slurm";
+  return fmt::format("{} job{}", options.jobs, options.jobs == 1 ? "" : "s");
 }
 
 std::string defaultUncertainty() {
@@ -152,10 +166,10 @@ int conduct(Options options) {
       ensureAtlas(planner::loadConfig(one.config), planner::atlasFolder(), false, progress);
   }
   beginCampaign(options.folder, campaign);
-  progress.line(fmt::format("fastball {}: {} throws of {} case{}, seed {}, {} job{}, in {}",
+  progress.line(fmt::format("fastball {}: {} throws of {} case{}, seed {}, {}, in {}",
                             campaign.version, campaign.throws, campaign.cases.size(),
-                            campaign.cases.size() == 1 ? "" : "s", campaign.seed, options.jobs,
-                            options.jobs == 1 ? "" : "s", options.folder));
+                            campaign.cases.size() == 1 ? "" : "s", campaign.seed,
+                            workersText(options), options.folder));
   const double throws_per_minute = work(options, campaign, progress);
   const std::map<Unit, UnitResult> record = readRecord(options.folder);
   writeFiles(options, campaign, record, throws_per_minute);
@@ -197,6 +211,7 @@ void addCampaignCommand(CLI::App& app, int& exit_status) {
   study.study = "none";
   study.strategies = kStrategies;
   options->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options->slurm.parts = kDefaultParts;
   command->add_option("--throws", campaign.throws, "Of each strategy (and case of a study)")
       ->check(CLI::Range(1, kMostThrows))
       ->capture_default_str();
@@ -229,6 +244,16 @@ void addCampaignCommand(CLI::App& app, int& exit_status) {
                     "With cameras and tracker; else a light curtain in the ring measures");
   command->add_option("--jobs", options->jobs, "Processes at work at once; default: one each core")
       ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--engine", options->engine,
+                   "Who works: this machine's processes, or an array job of Slurm")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command->add_option("--parts", options->slurm.parts, "Parts of Slurm's job, a core each")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--sbatch-args", options->slurm.sbatch_arguments,
+                      "More words for sbatch, such as \"--partition=short --time=1:00:00\"");
   command->add_option("--folder", options->folder,
                       "For everything the campaign leaves; one that was interrupted goes on there "
                       "(default: campaigns/...)");

@@ -28,6 +28,8 @@ struct ProcessOptions {
   bool realtime = false;
   std::string uncertainty;  ///< file of errors to inject; only the simulator reads it
   bool images = true;       ///< false: no cameras and no tracker; the simulator says LANDING itself
+  bool one_thread =
+      false;  ///< the simulator draws images itself, with none of the threads that the experiment file gives it
   bool verbose = false;
   double silence_limit = 0;  ///< [s], 0: none (messaging/peer_watch.h)
   double duration_s = 0;     ///< end after this wall time, 0: run until told to stop

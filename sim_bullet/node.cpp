@@ -65,6 +65,8 @@ SimulatorSetup loadSetup(const messaging::ProcessOptions& options) {
     setup.uncertainty = loadUncertainty(options.uncertainty);
   if (options.images)
     setup.cameras = readCameraRig(path);
+  if (options.one_thread && setup.cameras)
+    setup.cameras->workers = 0;
   setup.realtime = options.realtime;
   return setup;
 }

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/process.hpp>
 #include <boost/process/extend.hpp>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <thread>
 
 #include "launch/campaign/engine.h"
@@ -70,8 +72,14 @@ std::vector<std::string> workLocally(const std::string& folder,
   std::vector<std::string> faults;
   for (Worker& worker : workers) {
     worker.child.wait();
-    if (worker.child.exit_code() != 0 && !stopped)
-      faults.push_back(lastLine(worker.errors));
+    const int status = worker.child.native_exit_code();
+    if (status == 0 || stopped)
+      continue;
+    faults.push_back(WIFSIGNALED(status)
+                         ? fmt::format("a part was ended by signal {} ({}); the same command goes "
+                                       "on from what it had done",
+                                       WTERMSIG(status), strsignal(WTERMSIG(status)))
+                         : lastLine(worker.errors));
   }
   return faults;
 }

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kInterrupted = "interrupted";
+constexpr int kMostFaults = 10;  // of units of a part, before it gives up
 
 ThrowOutcome outcomeOf(const JudgedThrow& judged, double ball_radius, double target_radius) {
   ThrowOutcome outcome;
@@ -43,7 +44,8 @@ UnitResult runUnit(const Campaign& campaign, const Unit& unit) {
   options.no_network = true;
   options.no_images = !campaign.images;
   const auto begun = std::chrono::steady_clock::now();
-  const RunSetup setup = prepareRun(options);
+  RunSetup setup = prepareRun(options);
+  setup.options.one_thread = true;  // the other cores have parts of their own
   const double ball_radius = config::loadExperiment(setup.options.config).ball.radius;
   RunResult run;
   Progress silent(true);
@@ -73,19 +75,29 @@ bool runPart(const std::string& folder, const std::string& todo, int part, int p
   RecordFile record(folder, fmt::format("{}-{}", fs::path(todo).stem().string(), part));
   const messaging::StopSignals signals;
   std::size_t number = 0;
+  std::string fault;
+  int faults = 0;
   for (int i = 0; list >> number; ++i) {
     if (i % parts != part)
       continue;
+    UnitResult result;
     try {
-      record.add(runUnit(campaign, units.at(number)));
+      result = runUnit(campaign, units.at(number));
     } catch (const std::runtime_error& e) {
       if (signals.received() || std::string(e.what()).find(kInterrupted) != std::string::npos)
         return false;
-      throw;
+      // It shall not take the units after it along, unless none can be done.
+      fault = e.what();
+      if (++faults == kMostFaults)
+        break;
+      continue;
     }
+    record.add(result);
     if (signals.received())
       return false;
   }
+  if (!fault.empty())
+    throw std::runtime_error(fault);
   return true;
 }
 
