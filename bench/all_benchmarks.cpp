@@ -1,3 +1,4 @@
+#include "bench/campaign_rows.h"
 #include "bench/contact_rows.h"
 #include "bench/key_rows.h"
 #include "bench/launch_rows.h"
@@ -17,10 +18,11 @@ namespace fastball::bench {
 
 std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
-  for (const auto& some : {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(),
-                           keyBenchmarks(), loggerBenchmarks(), spyBenchmarks(), launchBenchmarks(),
-                           sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(),
-                           planBenchmarks(), reachBenchmarks(), robustBenchmarks()}) {
+  for (const auto& some :
+       {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), keyBenchmarks(),
+        loggerBenchmarks(), spyBenchmarks(), launchBenchmarks(), sceneBenchmarks(),
+        visionBenchmarks(), contactBenchmarks(), planBenchmarks(), reachBenchmarks(),
+        robustBenchmarks(), campaignBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
