@@ -34,11 +34,14 @@ std::vector<Unit> unitsOf(const Campaign& campaign) {
 
 nlohmann::json toJson(const Campaign& campaign) {
   nlohmann::json cases = nlohmann::json::array();
-  for (const Case& one : campaign.cases)
+  for (const Case& one : campaign.cases) {
     cases.push_back({{"name", one.name},
                      {"strategy", one.strategy},
                      {"config", one.config},
                      {"uncertainty", one.uncertainty}});
+    if (one.quantity)
+      cases.back()["quantity"] = {{"name", one.quantity->name}, {"value", one.quantity->value}};
+  }
   return {{"version", campaign.version},
           {"throws", campaign.throws},
           {"set_up_throws", campaign.set_up_throws},
@@ -54,9 +57,12 @@ Campaign campaignFrom(const nlohmann::json& object) {
   object.at("set_up_throws").get_to(campaign.set_up_throws);
   object.at("seed").get_to(campaign.seed);
   object.at("images").get_to(campaign.images);
-  for (const nlohmann::json& one : object.at("cases"))
+  for (const nlohmann::json& one : object.at("cases")) {
     campaign.cases.push_back(
         {one.at("name"), one.at("strategy"), one.at("config"), one.at("uncertainty")});
+    if (const auto quantity = one.find("quantity"); quantity != one.end())
+      campaign.cases.back().quantity = Quantity{quantity->at("name"), quantity->at("value")};
+  }
   return campaign;
 }
 

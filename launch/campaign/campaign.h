@@ -2,10 +2,17 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace fastball::launch {
+
+/// What an ordered study varies: where a case stands on the axis of its picture.
+struct Quantity {
+  std::string name;  ///< with its unit: "distance (m)"; "(times)": of the size in the other cases
+  double value = 0;
+};
 
 /// One way of throwing that a campaign counts the hits of. All cases of a campaign get the same draws.
 struct Case {
@@ -13,6 +20,7 @@ struct Case {
   std::string strategy;     ///< of the planner
   std::string config;       ///< experiment file, absolute
   std::string uncertainty;  ///< file of errors, absolute; empty: none
+  std::optional<Quantity> quantity = {};
 };
 
 /// What a campaign does. Set-up number i throws as `fastball run --seed (seed + i)` does: its errors that are fixed, and those drawn anew

@@ -23,6 +23,7 @@ using Edit = std::function<void(YAML::Node&)>;
 struct Variant {
   std::string name;
   Edit experiment, uncertainty;
+  std::optional<Quantity> quantity = {};
 };
 
 YAML::Node load(const std::string& path) {
@@ -115,50 +116,71 @@ std::vector<Variant> errorVariants(const std::string& study, const std::string& 
       continue;
     }
     for (const double factor : {0.5, 2.0, 4.0})
-      variants.push_back({fmt::format("{} x{}", error, factor), {}, times(factor, is)});
+      variants.push_back({fmt::format("{} x{}", error, factor),
+                          {},
+                          times(factor, is),
+                          Quantity{error + " (times)", factor}});
   }
   return variants;
 }
 
 std::vector<Variant> variantsOf(const std::string& study, const std::string& uncertainty) {
-  std::vector<Variant> variants{{"", {}, {}}};
-  const auto add = [&](const std::string& name, const Edit& experiment, const Edit& errors) {
-    variants.push_back({name, experiment, errors});
+  std::vector<Variant> variants{{"", {}, {}, {}}};
+  const auto add = [&](const std::string& name, const Quantity& quantity, const Edit& experiment,
+                       const Edit& errors) {
+    variants.push_back({name, experiment, errors, quantity});
   };
   if (study == "causes" || study == "errors") {
     for (Variant& variant : errorVariants(study, uncertainty))
       variants.push_back(std::move(variant));
   } else if (study == "scale") {
     for (const double factor : {0.0, 0.5, 1.5, 2.0, 3.0})
-      add(fmt::format("errors x{}", factor), {}, times(factor, [](const auto&) { return true; }));
+      add(fmt::format("errors x{}", factor), {"all errors (times)", factor}, {},
+          times(factor, [](const auto&) { return true; }));
   } else if (study == "distance") {
     for (const double wanted : {2.0, 2.5, 3.5, 4.0})
-      add(fmt::format("distance {} m", wanted),
+      add(fmt::format("distance {} m", wanted), {"distance (m)", wanted},
           target([=](double& distance, double&, double&) { distance = wanted; }), {});
   } else if (study == "height") {
     for (const double wanted : {-0.8, -0.2, 0.1, 0.4, 0.8})
-      add(fmt::format("height {} m", wanted),
+      add(fmt::format("height {} m", wanted), {"height (m)", wanted},
           target([=](double&, double& height, double&) { height = wanted; }), {});
   } else if (study == "azimuth") {
     for (const double wanted : {-60.0, -30.0, 30.0, 60.0})
-      add(fmt::format("azimuth {} deg", wanted),
+      add(fmt::format("azimuth {} deg", wanted), {"azimuth (deg)", wanted},
           target([=](double&, double&, double& azimuth) { azimuth = wanted / 180 * kPi; }), {});
   } else if (study == "ball") {
     for (const double modulus : {1e5, 2e5, 5e5, 1e6, 2e6, 1e7})
-      add(fmt::format("ball {:.0e} Pa", modulus), {}, [=](YAML::Node& file) {
-        const double factor = modulus / kNominalModulus;
-        YAML::Node error;
-        error["log_uniform"] = std::vector<double>{factor, factor};
-        error["unit"] = "relative";
-        error["reason"] = "the study's";
-        file["set_up"]["stiffness"] = error;
-      });
+      add(fmt::format("ball {:.0e} Pa", modulus), {"Young's modulus (Pa)", modulus}, {},
+          [=](YAML::Node& file) {
+            const double factor = modulus / kNominalModulus;
+            YAML::Node error;
+            error["log_uniform"] = std::vector<double>{factor, factor};
+            error["unit"] = "relative";
+            error["reason"] = "the study's";
+            file["set_up"]["stiffness"] = error;
+          });
   } else if (study == "speed") {
     for (const double speed : {4.0, 4.5, 5.0, 5.5, 6.0})
-      add(fmt::format("speed {} m/s", speed),
+      add(fmt::format("speed {} m/s", speed), {"wanted speed (m/s)", speed},
           [=](YAML::Node& file) { file["planner"]["robust"]["wanted_speed"] = speed; }, {});
   }
   return variants;
+}
+
+/// Where the unchanged experiment stands in a study of the target or the speed.
+std::optional<Quantity> unchanged(const std::string& study, const std::string& config) {
+  const YAML::Node file = load(config), position = file["target"]["position"];
+  const auto at = [&](int axis) { return position[axis].as<double>(); };
+  if (study == "distance")
+    return Quantity{"distance (m)", std::hypot(at(0), at(1))};
+  if (study == "height")
+    return Quantity{"height (m)", at(2)};
+  if (study == "azimuth")
+    return Quantity{"azimuth (deg)", std::atan2(at(1), at(0)) / kPi * 180};
+  if (study == "speed")
+    return Quantity{"wanted speed (m/s)", file["planner"]["robust"]["wanted_speed"].as<double>()};
+  return {};
 }
 
 }  // namespace
@@ -190,8 +212,10 @@ std::vector<Case> casesOf(const StudyRequest& request, const std::string& folder
       uncertainty = written(file, request.uncertainty, folder, "uncertainty " + variant.name);
     }
     for (const std::string& strategy : request.strategies)
-      cases.push_back({variant.name.empty() ? strategy : strategy + ", " + variant.name, strategy,
-                       config, uncertainty});
+      cases.push_back(
+          {variant.name.empty() ? strategy : strategy + ", " + variant.name, strategy, config,
+           uncertainty,
+           variant.name.empty() ? unchanged(request.study, request.config) : variant.quantity});
   }
   return cases;
 }

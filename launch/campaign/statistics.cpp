@@ -33,6 +33,12 @@ double Rate::high() const {
   return wilson(*this, 1);
 }
 
+RateDifference difference(const Rate& of, const Rate& from) {
+  const double value = of.value() - from.value();
+  return {value, value - std::hypot(of.value() - of.low(), from.high() - from.value()),
+          value + std::hypot(of.high() - of.value(), from.value() - from.low())};
+}
+
 CaseSummary summarise(const std::map<Unit, UnitResult>& record, int case_index) {
   CaseSummary summary;
   std::vector<Eigen::Vector2d> landings;

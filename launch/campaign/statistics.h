@@ -15,6 +15,12 @@ struct Rate {
   double high() const;
 };
 
+/// A difference of two independent rates with its 95 % interval, by Newcombe (1998), method 10.
+struct RateDifference {
+  double value, low, high;
+};
+RateDifference difference(const Rate& of, const Rate& from);
+
 /// What a case's throws came to.
 struct CaseSummary {
   Rate hits, cleans;

@@ -1,0 +1,160 @@
+// What each error costs, from a study that switches each off and leaves each alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "launch/campaign/campaign_drawing.h"
+#include "launch/figures/style.h"
+#include "launch/gnuplot.h"
+
+namespace fastball::launch {
+namespace {
+
+constexpr double kMilli = 1e3;
+
+/// An error's two cases beside that with all errors.
+struct Cause {
+  std::string error;
+  CaseSummary off, alone;
+  /// Hits without the error less those with all. The same draws in both make the interval wider than need be.
+  RateDifference gain;
+};
+
+struct Causes {
+  CaseSummary all;
+  std::vector<Cause> causes;  ///< the dearest first
+};
+
+const CaseSummary* summaryOf(const CampaignResults& results,
+                             const std::string& strategy,
+                             const std::string& variant) {
+  for (const std::size_t i : casesOfStrategy(results.campaign, strategy)) {
+    if (variantOf(results.campaign.cases[i]) == variant && results.summaries[i].hits.of > 0)
+      return &results.summaries[i];
+  }
+  return nullptr;
+}
+
+/// Name of the error of which `variant` says that it is off.
+std::optional<std::string> errorOff(const std::string& variant) {
+  const std::string off = " off";
+  if (variant.size() <= off.size() ||
+      variant.compare(variant.size() - off.size(), off.size(), off) != 0)
+    return {};
+  return variant.substr(0, variant.size() - off.size());
+}
+
+double scatter(const CaseSummary& s) {
+  return kMilli * std::sqrt(s.covariance.trace());
+}
+
+Causes causesOf(const CampaignResults& results, const std::string& strategy) {
+  Causes found;
+  const CaseSummary* all = summaryOf(results, strategy, "");
+  if (all == nullptr)
+    return found;
+  found.all = *all;
+  for (const std::size_t i : casesOfStrategy(results.campaign, strategy)) {
+    const auto error = errorOff(variantOf(results.campaign.cases[i]));
+    const CaseSummary* alone = error ? summaryOf(results, strategy, *error + " alone") : nullptr;
+    if (alone == nullptr || results.summaries[i].hits.of == 0)
+      continue;
+    found.causes.push_back({*error, results.summaries[i], *alone,
+                            difference(results.summaries[i].hits, found.all.hits)});
+  }
+  std::stable_sort(found.causes.begin(), found.causes.end(), [](const Cause& a, const Cause& b) {
+    return std::make_pair(a.gain.value, scatter(a.alone)) >
+           std::make_pair(b.gain.value, scatter(b.alone));
+  });
+  return found;
+}
+
+double deviation(const CaseSummary& s, int axis) {
+  return kMilli * std::sqrt(s.covariance(axis, axis));
+}
+
+std::string tableOf(const Causes& causes) {
+  std::string csv =
+      "error,throws,hit_percent_off,hit_low,hit_high,gain_percent,gain_low,gain_high,"
+      "throws_alone,hit_percent_alone,alone_low,alone_high,sd_right_alone_mm,"
+      "sd_up_alone_mm\n";
+  csv += fmt::format("none off,{},{},,,,,,,,{:.3f},{:.3f}\n", causes.all.hits.of,
+                     percentFields(causes.all.hits), deviation(causes.all, 0),
+                     deviation(causes.all, 1));
+  for (const Cause& c : causes.causes)
+    csv += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.3f},{:.3f}\n", c.error,
+                       c.off.hits.of, percentFields(c.off.hits), 100 * c.gain.value,
+                       100 * c.gain.low, 100 * c.gain.high, c.alone.hits.of,
+                       percentFields(c.alone.hits), deviation(c.alone, 0), deviation(c.alone, 1));
+  return csv;
+}
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+int heightOf(const Causes& causes) {
+  return 150 + 30 * static_cast<int>(causes.causes.size());
+}
+
+std::string commandsOf(const Causes& causes, const std::string& strategy) {
+  std::string tics;
+  for (std::size_t n = 0; n < causes.causes.size(); ++n)
+    tics += fmt::format("{}{} {}", n == 0 ? "" : ", ", quoted(spaced(causes.causes[n].error)),
+                        -static_cast<int>(n));
+  return kStyle + fmt::format(R"gp(set multiplot title {} font ',14'
+set tmargin at screen {}; set bmargin at screen {}; set yrange [{}:0.7]; set style fill solid 1
+set lmargin at screen 0.15; set rmargin at screen 0.57
+set ytics ({}) scale 0
+set xlabel "gain of hits with the error switched off\n(percentage points, 95 % intervals)"; set xrange [*:*]
+set arrow 1 from 0, graph 0 to 0, graph 1 nohead lw 1 lc rgb '#404040' front
+plot $c u 2:1:(0):2:($1-0.32):($1+0.32) w boxxyerror fc rgb {}, \
+  '' u 2:1:3:4 w xerrorbars pt 7 ps 0.4 lw 1.6 lc rgb '#000000'
+unset arrow 1; unset ytics
+set lmargin at screen 0.60; set rmargin at screen 0.98
+set xlabel "standard deviation of the landings\nwith this error alone (mm)"; set xrange [0:*]
+set key at graph 1,1.01 bottom right horizontal
+plot $c u 5:1:(0):5:($1):($1+0.36) w boxxyerror fc rgb {} title 'right', \
+  '' u 6:1:(0):6:($1-0.36):($1) w boxxyerror fc rgb {} title 'up'
+unset multiplot
+)gp",
+                              quoted(fmt::format("Causes of misses, strategy {}: {:.1f} % of {} "
+                                                 "throws hit with all errors",
+                                                 strategy, 100 * causes.all.hits.value(),
+                                                 causes.all.hits.of)),
+                              1 - 70.0 / heightOf(causes), 70.0 / heightOf(causes),
+                              0.3 - static_cast<double>(causes.causes.size()), tics, kColours[0],
+                              kColours[2], kYellow);
+}
+
+std::string dataOf(const Causes& causes) {
+  std::string data;
+  for (std::size_t n = 0; n < causes.causes.size(); ++n) {
+    const Cause& c = causes.causes[n];
+    data += fmt::format("{} {} {} {} {} {}\n", -static_cast<int>(n), 100 * c.gain.value,
+                        100 * c.gain.low, 100 * c.gain.high, deviation(c.alone, 0),
+                        deviation(c.alone, 1));
+  }
+  return dataBlock("c", data);
+}
+
+}  // namespace
+
+std::vector<std::string> drawCauses(const CampaignResults& results, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const std::string& strategy : strategiesOf(results.campaign)) {
+    const Causes causes = causesOf(results, strategy);
+    if (causes.causes.empty())
+      continue;
+    names.push_back("causes-" + strategy);
+    const std::string path_stem = folder + "/" + names.back();
+    writeText(tableOf(causes), path_stem + ".csv");
+    drawPicture(path_stem, 1200, heightOf(causes), dataOf(causes), commandsOf(causes, strategy));
+  }
+  return names;
+}
+
+}  // namespace fastball::launch
