@@ -87,14 +87,19 @@ std::vector<std::string> writeCampaignReport(const std::string& folder, const st
   const CampaignResults results = readResults(folder);
   std::filesystem::create_directories(output);
   std::vector<std::string> pictures, failures;
-  for (const auto& draw : {drawRates, drawStudy, drawCauses, drawLandings, drawThrowNumbers}) {
+  const auto attempt = [&](const char* what, const auto& draw) {
     try {
       const std::vector<std::string> drawn = draw(results, output);
       pictures.insert(pictures.end(), drawn.begin(), drawn.end());
     } catch (const std::exception& e) {
-      failures.emplace_back(e.what());
+      failures.push_back(fmt::format("there is no picture of {}: {}", what, e.what()));
     }
-  }
+  };
+  attempt("the rates", drawRates);
+  attempt("the study", drawStudy);
+  attempt("the causes", drawCauses);
+  attempt("the landings", drawLandings);
+  attempt("the throws by their number", drawThrowNumbers);
   writeText(casesCsv(results), output + "/cases.csv");
   writeText(markdown(results, pictures), output + "/report.md");
   return failures;

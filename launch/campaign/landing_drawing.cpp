@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "config/experiment.h"
 #include "launch/campaign/campaign_drawing.h"
@@ -179,13 +180,24 @@ std::string axesOf(const Sheet& sheet, int i, int panels) {
       lowest ? "'right (mm)'" : "''");
 }
 
+std::string titleOf(const Case& one, const Rate& hits, bool varied) {
+  std::string name = varied ? variantOf(one) : one.strategy;
+  if (name.empty())
+    name = "unchanged";
+  return fmt::format("{}: {:.1f} % of {}", name, 100 * hits.value(), hits.of);
+}
+
 void drawSheet(const CampaignResults& results,
                const std::vector<std::size_t>& cases,
-               const std::string& title,
+               bool varied,
                const std::string& path_stem) {
   const Sheet sheet = sheetFor(static_cast<int>(cases.size()));
   const double half_width =
       halfWidth(results, ringOf(results.campaign.cases[cases.front()]).radius);
+  const std::string title = varied
+                                ? fmt::format("Landings of strategy {}; above each panel its hits",
+                                              results.campaign.cases[cases.front()].strategy)
+                                : "Landings; above each panel its hits";
   std::string data = dataBlock("circle", unitCircle());
   std::string commands = kStyle + fmt::format(
                                       R"gp(set termoption noenhanced
@@ -198,17 +210,13 @@ set xrange [-{1}:{1}]; set yrange [-{1}:{1}]; set xtics {2}; set ytics {2}
     const std::size_t i = cases[n];
     const Case& one = results.campaign.cases[i];
     const Panel panel = panelOf(results, i, ringOf(one), half_width);
-    const std::string variant = variantOf(one), name = variant.empty() ? one.strategy : variant;
-    const CaseSummary& s = results.summaries[i];
     data += panel.data;
-    commands +=
-        sheet.margins(static_cast<int>(n)) +
-        axesOf(sheet, static_cast<int>(n), static_cast<int>(cases.size())) +
-        fmt::format(
-            "set title {} offset 0,-0.7 font ',{}'\n",
-            quoted(fmt::format("{}: {:.1f} % of {}", name, 100 * s.hits.value(), s.hits.of)),
-            sheet.panel < 250 ? 8 : 11) +
-        panel.commands;
+    commands += sheet.margins(static_cast<int>(n)) +
+                axesOf(sheet, static_cast<int>(n), static_cast<int>(cases.size())) +
+                fmt::format("set title {} offset 0,-0.7 font ',{}'\n",
+                            quoted(titleOf(one, results.summaries[i].hits, varied)),
+                            sheet.panel < 250 ? 8 : 11) +
+                panel.commands;
   }
   drawPicture(path_stem, sheet.width(), sheet.height(), data,
               commands + legend(sheet) + "unset multiplot\n");
@@ -235,6 +243,11 @@ std::string landingLines(const CampaignResults& results, const std::vector<std::
   return csv;
 }
 
+/// By what the panels of a study are sorted.
+double valueOf(const Case& one) {
+  return one.quantity ? one.quantity->value : -std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 std::vector<std::string> drawLandings(const CampaignResults& results, const std::string& folder) {
@@ -248,14 +261,13 @@ std::vector<std::string> drawLandings(const CampaignResults& results, const std:
     }
   }
   std::vector<std::string> names;
-  for (const auto& [name, cases] : sheets) {
+  for (auto& [name, cases] : sheets) {
+    std::stable_sort(cases.begin(), cases.end(), [&](std::size_t a, std::size_t b) {
+      return valueOf(results.campaign.cases[a]) < valueOf(results.campaign.cases[b]);
+    });
     const std::string path_stem = fmt::format("{}/{}", folder, name);
     writeText(landingLines(results, cases), path_stem + ".csv");
-    const std::string& strategy = results.campaign.cases[cases.front()].strategy;
-    drawSheet(results, cases,
-              varied ? fmt::format("Landings of strategy {}; above each panel its hits", strategy)
-                     : "Landings; above each panel its hits",
-              path_stem);
+    drawSheet(results, cases, varied, path_stem);
     names.push_back(name);
   }
   return names;

@@ -12,7 +12,7 @@
 namespace fastball::launch {
 namespace {
 
-constexpr int kMostBars = 60;
+constexpr std::size_t kMostBars = 60;
 
 bool isAnError(const Case& one) {
   const std::string variant = variantOf(one);
@@ -23,18 +23,35 @@ bool isAnError(const Case& one) {
   return ends(" off") || ends(" alone");
 }
 
-/// "y hit low high clean low high" [%], top to bottom.
-std::string barLine(int y, const CaseSummary& s) {
-  return fmt::format("{} {} {} {} {} {} {}\n", y, 100 * s.hits.value(), 100 * s.hits.low(),
-                     100 * s.hits.high(), 100 * s.cleans.value(), 100 * s.cleans.low(),
-                     100 * s.cleans.high());
+/// Of each case "y hit low high clean low high" [%], top to bottom.
+std::string barData(const CampaignResults& results, const std::vector<std::size_t>& cases) {
+  std::string data;
+  for (std::size_t n = 0; n < cases.size(); ++n) {
+    const Rate &hits = results.summaries[cases[n]].hits,
+               &cleans = results.summaries[cases[n]].cleans;
+    data += fmt::format("{} {} {} {} {} {} {}\n", -static_cast<int>(n), 100 * hits.value(),
+                        100 * hits.low(), 100 * hits.high(), 100 * cleans.value(),
+                        100 * cleans.low(), 100 * cleans.high());
+  }
+  return dataBlock("bars", data);
 }
 
-std::string barCommands(const std::string& tics, std::size_t longest, int bars) {
+std::string barCommands(const CampaignResults& results,
+                        const std::vector<std::size_t>& cases,
+                        const std::string& title) {
+  std::string tics;
+  std::size_t longest = 0;
+  for (std::size_t n = 0; n < cases.size(); ++n) {
+    const std::string label = fmt::format("{} ({})", results.campaign.cases[cases[n]].name,
+                                          results.summaries[cases[n]].hits.of);
+    longest = std::max(longest, label.size());
+    tics += fmt::format("{}{} {}", n == 0 ? "" : ", ", quoted(label), -static_cast<int>(n));
+  }
   return kStyle + fmt::format(R"gp(set termoption noenhanced
 set lmargin {}; set tmargin 4; set bmargin 3.6; set rmargin 4
-set key at graph 1,1.02 bottom right horizontal reverse Left
-set xlabel 'throws (%), with 95 % intervals'; set xrange [0:100]; set yrange [{}:-0.4]
+set label 1 {} at graph 0,1 left offset 0,1 font ',13'
+set key at graph 1,{:.4f} bottom right horizontal reverse Left
+set xlabel 'throws (%), with 95 % intervals'; set xrange [0:100]; set yrange [{}:0.6]
 set ytics ({}) scale 0
 set style fill solid 1
 plot $bars u 2:1:(0):2:($1):($1+0.36) w boxxyerror fc rgb {} title 'hits', \
@@ -42,7 +59,9 @@ plot $bars u 2:1:(0):2:($1):($1+0.36) w boxxyerror fc rgb {} title 'hits', \
   '' u 2:($1+0.18):3:4 w xerrorbars pt 7 ps 0.3 lw 1.6 lc rgb '#000000', \
   '' u 5:($1-0.18):6:7 w xerrorbars pt 7 ps 0.3 lw 1.6 lc rgb '#000000'
 )gp",
-                              longest + 3, -bars - 0.6, tics, kColours[0], kYellow);
+                              longest + 3, quoted(title),
+                              1 + 0.1 / static_cast<double>(cases.size()),
+                              0.4 - static_cast<double>(cases.size()), tics, kColours[0], kYellow);
 }
 
 /// Of the strategies with nothing varied: number, then hit rate and interval [%] of each.
@@ -90,12 +109,10 @@ void writeText(const std::string& text, const std::string& path) {
 }
 
 std::vector<std::string> drawRates(const CampaignResults& results, const std::string& folder) {
-  std::string data, tics;
   std::string csv =
       "strategy,variant,throws,hit_percent,hit_low,hit_high,clean_percent,clean_low,"
       "clean_high\n";
-  int bars = 0;
-  std::size_t longest = 0;
+  std::vector<std::size_t> thrown;
   for (std::size_t i = 0; i < results.campaign.cases.size(); ++i) {
     const Case& one = results.campaign.cases[i];
     if (one.quantity || isAnError(one))
@@ -103,17 +120,21 @@ std::vector<std::string> drawRates(const CampaignResults& results, const std::st
     const CaseSummary& s = results.summaries[i];
     csv += fmt::format("{},{},{},{},{}\n", one.strategy, variantOf(one), s.hits.of,
                        percentFields(s.hits), percentFields(s.cleans));
-    if (s.hits.of == 0 || bars == kMostBars)
-      continue;
-    ++bars;
-    data += barLine(-bars, s);
-    const std::string label = fmt::format("{} ({})", one.name, s.hits.of);
-    longest = std::max(longest, label.size());
-    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", quoted(label), -bars);
+    if (s.hits.of > 0)
+      thrown.push_back(i);
+  }
+  std::string title;
+  if (thrown.size() > kMostBars) {
+    title = fmt::format("The {} cases of {} with the fewest hits", kMostBars, thrown.size());
+    std::stable_sort(thrown.begin(), thrown.end(), [&](std::size_t a, std::size_t b) {
+      return results.summaries[a].hits.value() < results.summaries[b].hits.value();
+    });
+    thrown.resize(kMostBars);
   }
   writeText(csv, folder + "/rates.csv");
-  drawPicture(folder + "/rates", 1000, 130 + 42 * bars, dataBlock("bars", data),
-              barCommands(tics, longest, bars));
+  const auto height = 130 + 42 * thrown.size();
+  drawPicture(folder + "/rates", 1000, static_cast<int>(height), barData(results, thrown),
+              barCommands(results, thrown, title));
   return {"rates"};
 }
 
