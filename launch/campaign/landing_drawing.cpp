@@ -142,10 +142,11 @@ Panel panelOf(const CampaignResults& results, std::size_t i, const Ring& ring, d
       R"gp(plot $misses{0} w p pt 8 ps {7} lc rgb {2}, $hits{0} w p pt 7 ps {1} lc rgb {3}, \
   $circle u ({4}*$1):({4}*$2) w l lw 3 lc rgb '#000000', \
   $circle u ({5}*$1):({5}*$2) w l lw 2 dt 2 lc rgb '#000000', \
-  $ellipses{0} w l lw 2 lc rgb {6}, $mean{0} w p pt 1 ps 1.8 lw 3 lc rgb {6}
+  $ellipses{0} w l lw 4 lc rgb '#ffffff', $ellipses{0} w l lw 2 lc rgb {6}, \
+  $mean{0} w p pt 1 ps 2.2 lw 6 lc rgb '#ffffff', $mean{0} w p pt 1 ps 1.8 lw 3 lc rgb {6}
 )gp",
       i, size, kColours[1], many ? "'#500072B2'" : kColours[0], ring.radius,
-      ring.radius - ring.ball, kYellow, 1.6 * size);
+      ring.radius - ring.ball, kColours[2], 1.6 * size);
   const std::string note = notShown(outside, lost);
   panel.commands = (note.empty() ? "unset label 1\n"
                                  : fmt::format("set label 1 {} at graph 0.03,0.94 front boxed\n",
@@ -169,7 +170,7 @@ plot NaN w p pt 7 ps 1 lc rgb {} title 'hit', NaN w p pt 8 ps 1 lc rgb {} title 
   NaN w l lw 3 lc rgb '#000000' title 'ring', NaN w l lw 2 dt 2 lc rgb '#000000' title 'ring for the whole ball', \
   NaN w lp pt 1 ps 1.8 lw 2 lc rgb {} title 'mean, 1 and 2 sd'
 )gp",
-                     60.0 / sheet.height(), kColours[0], kColours[1], kYellow);
+                     60.0 / sheet.height(), kColours[0], kColours[1], kColours[2]);
 }
 
 std::string axesOf(const Sheet& sheet, int i, int panels) {
