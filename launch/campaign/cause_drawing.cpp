@@ -75,19 +75,24 @@ double deviation(const CaseSummary& s, int axis) {
   return kMilli * std::sqrt(s.covariance(axis, axis));
 }
 
+/// "mean right,mean up,sd right,sd up" [mm].
+std::string landingFields(const CaseSummary& s) {
+  return fmt::format("{:.3f},{:.3f},{:.3f},{:.3f}", kMilli * s.bias.x(), kMilli * s.bias.y(),
+                     deviation(s, 0), deviation(s, 1));
+}
+
 std::string tableOf(const Causes& causes) {
   std::string csv =
       "error,throws,hit_percent_off,hit_low,hit_high,gain_percent,gain_low,gain_high,"
-      "throws_alone,hit_percent_alone,alone_low,alone_high,sd_right_alone_mm,"
-      "sd_up_alone_mm\n";
-  csv += fmt::format("none off,{},{},,,,,,,,{:.3f},{:.3f}\n", causes.all.hits.of,
-                     percentFields(causes.all.hits), deviation(causes.all, 0),
-                     deviation(causes.all, 1));
+      "throws_alone,hit_percent_alone,alone_low,alone_high,mean_right_alone_mm,"
+      "mean_up_alone_mm,sd_right_alone_mm,sd_up_alone_mm\n";
+  csv += fmt::format("none off,{},{},,,,,,,,{}\n", causes.all.hits.of,
+                     percentFields(causes.all.hits), landingFields(causes.all));
   for (const Cause& c : causes.causes)
-    csv += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.3f},{:.3f}\n", c.error,
-                       c.off.hits.of, percentFields(c.off.hits), 100 * c.gain.value,
-                       100 * c.gain.low, 100 * c.gain.high, c.alone.hits.of,
-                       percentFields(c.alone.hits), deviation(c.alone, 0), deviation(c.alone, 1));
+    csv += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{}\n", c.error, c.off.hits.of,
+                       percentFields(c.off.hits), 100 * c.gain.value, 100 * c.gain.low,
+                       100 * c.gain.high, c.alone.hits.of, percentFields(c.alone.hits),
+                       landingFields(c.alone));
   return csv;
 }
 
@@ -115,10 +120,11 @@ plot $c u 2:1:(0):2:($1-0.32):($1+0.32) w boxxyerror fc rgb {}, \
   '' u 2:1:3:4 w xerrorbars pt 7 ps 0.4 lw 1.6 lc rgb '#000000'
 unset arrow 1; unset ytics
 set lmargin at screen 0.60; set rmargin at screen 0.98
-set xlabel "standard deviation of the landings\nwith this error alone (mm)"; set xrange [0:*]
-set key at graph 1,1.01 bottom right horizontal
-plot $c u 5:1:(0):5:($1):($1+0.36) w boxxyerror fc rgb {} title 'right', \
-  '' u 6:1:(0):6:($1-0.36):($1) w boxxyerror fc rgb {} title 'up'
+set xlabel "landings with this error alone (mm): standard deviations\nand distance of the mean from the centre"; set xrange [0:*]
+set key at graph 0.5,1.01 bottom center horizontal
+plot $c u 5:1:(0):5:($1):($1+0.36) w boxxyerror fc rgb {} title 'sd right', \
+  '' u 6:1:(0):6:($1-0.36):($1) w boxxyerror fc rgb {} title 'sd up', \
+  '' u 7:1 w p pt 7 ps 1 lc rgb '#000000' title '|mean|'
 unset multiplot
 )gp",
                               quoted(fmt::format("Causes of misses, strategy {}: {:.1f} % of {} "
@@ -134,9 +140,9 @@ std::string dataOf(const Causes& causes) {
   std::string data;
   for (std::size_t n = 0; n < causes.causes.size(); ++n) {
     const Cause& c = causes.causes[n];
-    data += fmt::format("{} {} {} {} {} {}\n", -static_cast<int>(n), 100 * c.gain.value,
+    data += fmt::format("{} {} {} {} {} {} {}\n", -static_cast<int>(n), 100 * c.gain.value,
                         100 * c.gain.low, 100 * c.gain.high, deviation(c.alone, 0),
-                        deviation(c.alone, 1));
+                        deviation(c.alone, 1), kMilli * c.alone.bias.norm());
   }
   return dataBlock("c", data);
 }
