@@ -11,6 +11,14 @@ namespace {
 /// No aim is farther [m] from the target's centre: beyond that it is the biases that are wrong.
 constexpr double kFarthestAim = 0.3;
 
+/// Where an aim can only be reached by a throw of another kind, faster and without a window, nothing that was learned holds for it.
+bool alike(const Plan& a, const Plan& b) {
+  const auto window = [](const Plan& plan) {
+    return plan.release_window[1] - plan.release_window[0];
+  };
+  return (window(a) > 0) == (window(b) > 0);
+}
+
 PlanResult planTowards(const Planner& planner,
                        const ThrowRequest& request,
                        const Eigen::Vector2d& aim) {
@@ -37,9 +45,9 @@ PlanResult planAimed(const Planner& planner, const ThrowRequest& request) {
   };
   Eigen::Vector2d aim = -expected(*plan);
   aim *= std::min(1.0, kFarthestAim / aim.norm());
-  for (const double share : {1.0, 0.5}) {
+  for (const double share : {1.0, 0.5, 0.25}) {
     PlanResult aimed = planTowards(planner, request, share * aim);
-    if (std::holds_alternative<Plan>(aimed)) {
+    if (Plan* nearer = std::get_if<Plan>(&aimed); nearer && alike(*nearer, *plan)) {
       result = std::move(aimed);
       break;
     }

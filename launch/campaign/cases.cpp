@@ -168,10 +168,12 @@ std::vector<Variant> variantsOf(const std::string& study, const std::string& unc
   return variants;
 }
 
-/// Where the unchanged experiment stands in a study of the target or the speed.
+/// Where the case with nothing changed stands in a study of one quantity.
 std::optional<Quantity> unchanged(const std::string& study, const std::string& config) {
   const YAML::Node file = load(config), position = file["target"]["position"];
   const auto at = [&](int axis) { return position[axis].as<double>(); };
+  if (study == "scale")
+    return Quantity{"all errors (times)", 1};
   if (study == "distance")
     return Quantity{"distance (m)", std::hypot(at(0), at(1))};
   if (study == "height")

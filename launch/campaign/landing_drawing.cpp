@@ -165,7 +165,7 @@ std::string legend(const Sheet& sheet) {
   return fmt::format(R"gp(set lmargin at screen 0.02; set rmargin at screen 0.98
 set bmargin at screen 0; set tmargin at screen {:.5f}
 unset border; unset tics; unset xlabel; unset ylabel; unset title; unset label 1
-set key center center horizontal samplen 2 width 1; set xrange [0:1]; set yrange [0:1]
+set key center center horizontal samplen 3 width 1; set xrange [0:1]; set yrange [0:1]
 plot NaN w p pt 7 ps 1 lc rgb {} title 'hit', NaN w p pt 8 ps 1 lc rgb {} title 'miss', \
   NaN w l lw 3 lc rgb '#000000' title 'ring', NaN w l lw 2 dt 2 lc rgb '#000000' title 'ring for the whole ball', \
   NaN w lp pt 1 ps 1.8 lw 2 lc rgb {} title 'mean, 1 and 2 sd'

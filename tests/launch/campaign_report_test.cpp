@@ -15,7 +15,6 @@
 namespace fastball::launch {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -161,19 +160,32 @@ TEST(CampaignQuantity, OutlivesTheFileAndMayBeAbsent) {
   EXPECT_FALSE(cases[1].quantity);
 }
 
-TEST(CampaignQuantity, OfAStudyIncludesTheUnchangedExperiment) {
+/// Quantities of a study's cases, none left out.
+std::vector<Quantity> quantitiesOf(const std::string& study) {
   const config::TemporaryFolder folder;
   StudyRequest request;
-  request.study = "distance";
+  request.study = study;
   request.strategies = {"paper"};
   request.config = kSource + "/config/experiment.yaml";
   request.uncertainty = kSource + "/config/uncertainty/paper.yaml";
-  std::vector<double> values;
-  for (const Case& one : casesOf(request, folder.path())) {
-    ASSERT_TRUE(one.quantity) << one.name;
-    values.push_back(one.quantity->value);
+  std::vector<Quantity> quantities;
+  for (const Case& one : casesOf(request, folder.path()))
+    quantities.push_back(one.quantity.value());
+  return quantities;
+}
+
+TEST(CampaignQuantity, OfAStudyIncludesTheUnchangedExperiment) {
+  for (const char* study : {"scale", "distance", "height", "azimuth", "speed"}) {
+    SCOPED_TRACE(study);
+    const std::vector<Quantity> quantities = quantitiesOf(study);
+    EXPECT_GT(quantities.size(), 4U);
+    for (const Quantity& one : quantities)
+      EXPECT_EQ(one.name, quantities.front().name);
   }
-  EXPECT_THAT(values, ElementsAre(3.0, 2.0, 2.5, 3.5, 4.0));
+  EXPECT_EQ(quantitiesOf("scale").front().value, 1);
+  EXPECT_EQ(quantitiesOf("distance").front().value, 3);
+  EXPECT_EQ(quantitiesOf("height").front().value, -0.5);
+  EXPECT_EQ(quantitiesOf("azimuth").front().value, 0);
 }
 
 TEST(ErrorTable, NamesPartDistributionUnitAndReason) {
