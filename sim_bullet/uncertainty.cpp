@@ -20,7 +20,7 @@ using Shape = Distribution::Shape;
 double mostOf(Error error) {
   switch (error) {
     case Error::kGraspOffset:
-      return 0.05;
+      return 0.1;
     case Error::kOpeningDelay:
     case Error::kFingerDelay:
       return 0.05;

@@ -81,7 +81,7 @@ TEST_F(UncertaintyFile, RefusesWhatCannotBeWithFileLineAndKey) {
       {"grasp_offset: {log_uniform: [0.5, 2], unit: m}", "log_uniform"},
       {"grasp_offset: 0.001", "grasp_offset"},
       {"ball_mass: {normal: -0.1, unit: relative}", "normal"},
-      {"ball_mass: {normal: 0.1, times: 99, unit: relative}", "ball_mass"},
+      {"ball_mass: {normal: 0.2, times: 99, unit: relative}", "ball_mass"},
       {"drag: {normal: .nan, unit: relative}", "normal"},
       {"stiffness: {log_uniform: [2, 0.5], unit: relative}", "log_uniform"},
       {"opening_delay: {normal: 0.001, unit: s}", "opening_delay"},
