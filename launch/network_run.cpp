@@ -33,7 +33,9 @@ constexpr int64_t kWatchIntervalUs = 20000;
 constexpr int64_t kEstopUs = 100'000;
 // For the arm to come to rest.
 constexpr int64_t kRestUs = 2'000'000, kInterruptedRestUs = 300'000;
-constexpr double kRestSpeed = 0.02;        // [rad/s]
+constexpr double kRestSpeed = 0.02;  // [rad/s]
+// A busy machine may be that late with the next state; a simulator that waits for a dead process is silent for ever.
+constexpr int64_t kSilentUs = 500'000;
 constexpr double kInterruptedGrace = 0.8;  // [s], twice: an interrupted run is over within 2 s
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
 constexpr double kHeartbeatPeriod = 1.1;  // [s]
@@ -304,7 +306,7 @@ void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {
 
 void NetworkRun::awaitRest() {
   const int64_t start_us = clock_.monotonicUs();
-  int64_t heard_us = start_us;
+  int64_t heard_us = start_us, moved_us = start_us;
   int64_t tick = arm_.tick;
   const int64_t longest_us = signals_.received() ? kInterruptedRestUs : kRestUs;
   for (int64_t now_us = start_us; now_us < start_us + longest_us; now_us = clock_.monotonicUs()) {
@@ -313,8 +315,9 @@ void NetworkRun::awaitRest() {
     endpoint_.drain();
     if (std::exchange(tick, arm_.tick) != arm_.tick)
       heard_us = now_us;
-    const bool moves = Eigen::Map<const Eigen::Vector4d>(arm_.qd).norm() > kRestSpeed;
-    if (now_us >= (moves ? heard_us : start_us) + kEstopUs)
+    if (Eigen::Map<const Eigen::Vector4d>(arm_.qd).norm() > kRestSpeed)
+      moved_us = now_us;
+    if (now_us >= moved_us + kEstopUs || now_us >= heard_us + kSilentUs)
       return;
   }
 }
