@@ -23,7 +23,7 @@ double mostOf(Error error) {
       return 0.1;
     case Error::kOpeningDelay:
     case Error::kFingerDelay:
-      return 0.05;
+      return 0.1;
     case Error::kEncoderOffset:
       return 0.06;
     case Error::kEncoderNoise:
