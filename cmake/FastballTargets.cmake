@@ -55,6 +55,8 @@ function(fastball_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   fastball_settings(${name})
+  target_precompile_headers(${name} REUSE_FROM fastball_test_headers)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE
     FASTBALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" FASTBALL_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
   if(NOT ARG_TIMEOUT)
