@@ -19,7 +19,8 @@ if(FASTBALL_FUZZ)
 endif()
 
 function(fastball_settings target)
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/fastball>)
   # Instrumented code makes GCC see uninitialised values inside std::regex.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow
     $<$<BOOL:${FASTBALL_STRICT}>:-Werror>
@@ -45,7 +46,19 @@ function(fastball_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
   fastball_settings(${name})
   add_dependencies(programs ${name})
-  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+endfunction()
+
+# fastball_export(name...): libraries for programs outside of this tree, as fastball::NAME after find_package(fastball), with all
+# headers of the folder that says so.
+function(fastball_export)
+  foreach(name ${ARGN})
+    string(REGEX REPLACE "^fastball_" "" exported ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${exported})
+  endforeach()
+  install(TARGETS ${ARGN} EXPORT fastball DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fastball COMPONENT development
+    FILES_MATCHING PATTERN "*.h" PATTERN "calibration_file.h" EXCLUDE)
 endfunction()
 
 # fastball_test(name SOURCES ... LIBRARIES ... [NETWORK]): one GoogleTest program, one ctest per test case.

@@ -83,13 +83,12 @@ std::string defaultExperimentPath() {
   if (named != nullptr && *named != '\0') {
     return named;
   }
-  const fs::path source = fs::path(FASTBALL_CONFIG_SOURCE_DIR) / "experiment.yaml";
   std::error_code error;
-  if (fs::exists(source, error)) {
-    return source.string();
-  }
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return (program.parent_path().parent_path() / "share/fastball/config/experiment.yaml").string();
+  const fs::path installed =
+      program.parent_path().parent_path() / "share/fastball/config/experiment.yaml";
+  const fs::path source = fs::path(FASTBALL_CONFIG_SOURCE_DIR) / "experiment.yaml";
+  return (fs::exists(source, error) && !fs::exists(installed, error) ? source : installed).string();
 }
 
 std::string experimentPath(const std::string& named) {

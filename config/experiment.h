@@ -31,8 +31,8 @@ Experiment loadExperiment(const std::string& path);
 /// alone, an unknown one is an error.
 Section processSection(const std::string& path, const std::string& process);
 
-/// The experiment file used when none is named: $FASTBALL_CONFIG, else config/experiment.yaml of
-/// the source tree that the program was built from, else the installed one.
+/// The experiment file used when none is named: $FASTBALL_CONFIG, else the config/experiment.yaml
+/// installed beside the program, else of the source tree that it was built from.
 std::string defaultExperimentPath();
 
 /// `named`, or the default experiment file if it is empty.

@@ -22,6 +22,7 @@ void addCalibrateCommand(CLI::App& app, int& exit_status);
 void addTrackCommand(CLI::App& app, int& exit_status);
 void addDoctorCommand(CLI::App& app, int& exit_status);
 void addCampaignCommand(CLI::App& app, int& exit_status);
+void addManualCommand(CLI::App& app, int& exit_status);
 void addSpyCommand(CLI::App& app, int& exit_status);
 /// up, down, ps, hold
 void addSystemCommands(CLI::App& app, int& exit_status);

@@ -35,6 +35,7 @@ int fastballMain(int argc, char** argv) {
   fastball::launch::addAtlasCommand(app, exit_status);
   fastball::launch::addFiguresCommand(app, exit_status);
   fastball::launch::addBenchCommand(app, exit_status);
+  fastball::launch::addManualCommand(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

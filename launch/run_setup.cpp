@@ -68,9 +68,11 @@ RunSetup prepareRun(const RunOptions& options) {
     setup.options.lcm_url = system.lcm_url;
     setup.options.silence_limit = system.silence_limit;
     setup.clock_limit = system.clock_limit;
+    setup.options.images = system.has("vision_tracker");
+  } else {
+    setup.options.images = !options.no_images;
   }
   setup.options.realtime = options.realtime;
-  setup.options.images = !options.no_images;
   setup.command_line = options.command_line;
   setup.options.uncertainty = absolutePath(options.uncertainty);
   setup.options.key = absolutePath(options.key);
@@ -82,7 +84,7 @@ RunSetup prepareRun(const RunOptions& options) {
   setup.settings.learned = absolutePath(options.learned);
   setup.settings.ball = experiment.ball;
   setup.settings.gravity = experiment.arm.gravity;
-  setup.settings.images = !options.no_images;
+  setup.settings.images = setup.options.images;
   setup.settings.seed = options.seed;
   setup.settings.q_rest = experiment.q_rest;
   setup.settings.target = experiment.target;

@@ -127,6 +127,11 @@ void readSilenceLimit(Section& file, System& system) {
 
 }  // namespace
 
+bool System::has(const std::string& process) const {
+  return std::any_of(processes.begin(), processes.end(),
+                     [&](const SystemProcess& one) { return one.name == process; });
+}
+
 bool System::isOnOneMachine() const {
   return std::all_of(processes.begin(), processes.end(),
                      [](const SystemProcess& process) { return process.host.isHere(); });

@@ -50,6 +50,7 @@ struct System {
   std::vector<SystemProcess> processes;
 
   bool isOnOneMachine() const;
+  bool has(const std::string& process) const;
 };
 
 /// @throw config::ConfigError that names file, line and key.

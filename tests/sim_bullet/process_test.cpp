@@ -21,7 +21,8 @@ using testing::HasSubstr;
 
 const std::string kProgram = FASTBALL_BIN_DIR "/fastball-sim-bullet";
 
-class Process : public testing::Test {
+/// What every robot must do, the simulator or another.
+class Process : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     endpoint_.subscribe<heartbeat_t>(messaging::kHeartbeat,
@@ -46,12 +47,13 @@ class Process : public testing::Test {
   }
 
   messaging::LcmEndpoint endpoint_{messaging::defaultLcmUrl()};
-  ChildProcess process_{{kProgram, "--config", kExperimentFile}};
+  ChildProcess process_{
+      {FASTBALL_BIN_DIR + std::string("/") + GetParam(), "--config", kExperimentFile}};
   ScriptedPeers peers_{endpoint_};
   heartbeat_t heartbeat_{};
 };
 
-TEST_F(Process, RunsASceneInLockstepAndEndsOnASignal) {
+TEST_P(Process, RunsASceneInLockstepAndEndsOnASignal) {
   peers_.sendScene(scene(1, 0.1));
   ASSERT_TRUE(waitFor([this] { return heartbeat_.state == "finished"; }));
   EXPECT_EQ(heartbeat_.plan_id, 1);
@@ -60,7 +62,7 @@ TEST_F(Process, RunsASceneInLockstepAndEndsOnASignal) {
   EXPECT_EQ(process_.stop(SIGTERM), 0);
 }
 
-TEST_F(Process, RepeatsAStateThatNobodyAnswers) {
+TEST_P(Process, RepeatsAStateThatNobodyAnswers) {
   peers_.answers_hand = false;
   peers_.sendScene(scene(1, 0.1));
   ASSERT_TRUE(waitFor([this] { return peers_.arm_states.size() >= 5; }));
@@ -70,7 +72,7 @@ TEST_F(Process, RepeatsAStateThatNobodyAnswers) {
   EXPECT_TRUE(waitFor([this] { return heartbeat_.state == "finished"; }));
 }
 
-TEST_F(Process, LeavesCommandsForOtherTicksAlone) {
+TEST_P(Process, LeavesCommandsForOtherTicksAlone) {
   peers_.answers_arm = false;
   peers_.sendScene(scene(1, 0.1));
   ASSERT_TRUE(waitFor([this] { return peers_.tick() == 0; }));
@@ -86,7 +88,7 @@ TEST_F(Process, LeavesCommandsForOtherTicksAlone) {
   EXPECT_EQ(peers_.tick(), 0);
 }
 
-TEST_F(Process, SurvivesHostileBytes) {
+TEST_P(Process, SurvivesHostileBytes) {
   const std::string noise = "\x01\x02 these are no messages \xff\xfe";
   for (const char* channel : {"SCENE", "ARM_COMMAND", "HAND_COMMAND"}) {
     endpoint_.publishBytes(channel, noise.data(), noise.size());
@@ -108,6 +110,8 @@ TEST_F(Process, SurvivesHostileBytes) {
   ASSERT_TRUE(waitFor([this] { return heartbeat_.state == "finished"; }));
   EXPECT_GE(heartbeat_.invalid, 7);
 }
+
+INSTANTIATE_TEST_SUITE_P(Robots, Process, testing::Values("fastball-sim-bullet", "stand-in-robot"));
 
 TEST(KeyedSimulator, NamesASecondControllerByProcessAndHost) {
   const config::TemporaryFolder folder;
