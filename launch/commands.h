@@ -23,6 +23,7 @@ void addTrackCommand(CLI::App& app, int& exit_status);
 void addDoctorCommand(CLI::App& app, int& exit_status);
 void addCampaignCommand(CLI::App& app, int& exit_status);
 void addManualCommand(CLI::App& app, int& exit_status);
+void addDocsCommand(CLI::App& app, int& exit_status);
 void addSpyCommand(CLI::App& app, int& exit_status);
 /// up, down, ps, hold
 void addSystemCommands(CLI::App& app, int& exit_status);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "launch/commands.h"
+#include "launch/library_versions.h"
 #include "messaging/process.h"
 #include "messaging/version.h"
 
@@ -18,7 +19,8 @@ using fastball::messaging::kExitUsage;
 int fastballMain(int argc, char** argv) {
   CLI::App app{"A robot arm throws a ball into a net by the kinetic chain, as processes over LCM.",
                "fastball"};
-  app.set_version_flag("--version", std::string("fastball ") + fastball::messaging::version());
+  app.set_version_flag("--version", fmt::format("fastball {}\n{}", fastball::messaging::version(),
+                                                fastball::launch::libraryVersions()));
   app.require_subcommand(0, 1);
   int exit_status = kExitDone;
   fastball::launch::addRunCommand(app, exit_status);
@@ -35,6 +37,7 @@ int fastballMain(int argc, char** argv) {
   fastball::launch::addAtlasCommand(app, exit_status);
   fastball::launch::addFiguresCommand(app, exit_status);
   fastball::launch::addBenchCommand(app, exit_status);
+  fastball::launch::addDocsCommand(app, exit_status);
   fastball::launch::addManualCommand(app, exit_status);
   try {
     app.parse(argc, argv);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "launch/commands.h"
-#include "launch/manual.h"
+#include "launch/docs/manual.h"
 #include "messaging/process.h"
 #include "messaging/version.h"
 

@@ -1,4 +1,4 @@
-#include "launch/manual.h"
+#include "launch/docs/manual.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,152 @@
+#include "launch/docs/documents.h"
+
+#include <fmt/format.h>
+
+#include <boost/process.hpp>
+#include <boost/process/search_path.hpp>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "bench/row.h"
+#include "launch/docs/marked_text.h"
+#include "launch/docs/message_reference.h"
+#include "launch/processes.h"
+
+namespace fastball::launch {
+namespace {
+
+namespace fs = std::filesystem;
+namespace bp = boost::process;
+
+std::string readText(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file)
+    throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeText(const fs::path& path, const std::string& text) {
+  std::ofstream file(path);
+  if (!(file << text).flush())
+    throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+}
+
+/// This program with other arguments. @return what it printed.
+std::string fastball(const std::vector<std::string>& arguments) {
+  bp::ipstream output;
+  bp::child child(programFolder() + "/fastball", bp::args(arguments), bp::std_out > output);
+  const std::string text{std::istreambuf_iterator<char>(output), {}};
+  child.wait();
+  if (child.exit_code() != 0)
+    throw std::runtime_error(
+        fmt::format("'fastball {}' ended with status {}", arguments.front(), child.exit_code()));
+  return text;
+}
+
+void makeMessages(const DocumentOptions& options) {
+  writeText(options.tree / "docs/messages.md", messageReference(options.tree / "lcmtypes"));
+}
+
+void makeThrow(const DocumentOptions& options) {
+  const fs::path work = options.campaigns / "throw";
+  fs::create_directories(work);
+  const std::string log = (work / "throw.lcmlog").string();
+  const std::string said = fastball({"run", "--seed", "1", "--log", log});
+  fastball({"report", log, "-o", (work / "report").string()});
+  fs::copy_file(work / "report/throw-1.png", options.tree / "docs/throw.png",
+                fs::copy_options::overwrite_existing);
+  const fs::path readme = options.tree / "README.md";
+  writeText(readme, withBlock(readText(readme), "run",
+                              "```\n$ ./fastball run --seed 1\n" + said + "```\n"));
+}
+
+void makeBenchmarks(const DocumentOptions& options) {
+  const fs::path path = options.tree / "docs/benchmarks.md";
+  std::string page = readText(path), without;
+  for (const bench::Benchmark& benchmark : bench::allBenchmarks()) {
+    fmt::print(stderr, "measuring {}\n", benchmark.id);
+    const bench::Row row = benchmark.measure();
+    const std::string line =
+        fmt::format("| `{}` | {:.4g} | {} | {} | {} | {} |", row.id, row.value, row.unit, row.peer,
+                    row.peer_value ? fmt::format("{:.4g}", *row.peer_value) : "", row.note);
+    bool found = false;
+    page = withRow(page, row.id, line, found);
+    if (!found)
+      without += " " + row.id;
+    writeText(path, page);
+  }
+  if (!without.empty())
+    throw std::runtime_error(
+        fmt::format("{}: its tables have no row for{}", path.string(), without));
+}
+
+/// A campaign, and which of its pictures docs/robustness.md shows under which name.
+struct DocumentCampaign {
+  std::string block;  ///< of docs/robustness.md whose table its cases are; several may share one
+  std::vector<std::string> arguments;
+  int throws = 0;
+  std::vector<std::pair<std::string, std::string>> pictures;
+};
+
+std::vector<DocumentCampaign> documentCampaigns(const DocumentOptions& options) {
+  const int all = options.throws, some = options.study_throws;
+  const std::string best = "robust,adaptive";
+  std::vector<DocumentCampaign> campaigns = {
+      {"48v",
+       {"--arm", "wam4-48v"},
+       all,
+       {{"landings", "landings-48v"}, {"throw-numbers", "throw-numbers-48v"}}},
+      {"90v", {"--arm", "wam4-90v"}, all, {{"landings", "landings-90v"}}},
+      {"causes",
+       {"--study", "causes", "--strategy", "paper", "--set-up-throws", "2"},
+       some,
+       {{"causes-paper", "causes-paper"}}}};
+  for (const char* study : {"scale", "distance", "height", "azimuth", "ball", "speed"})
+    campaigns.push_back({study, {"--study", study, "--strategy", best}, some, {{"study", study}}});
+  return campaigns;
+}
+
+/// The lines of the first table in a page.
+std::string firstTable(const std::string& page) {
+  std::string table;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("| ", 0) == 0)
+      table += line + "\n";
+    else if (!table.empty())
+      break;
+  }
+  return table;
+}
+
+void makeRobustness(const DocumentOptions& options) {
+  const fs::path path = options.tree / "docs/robustness.md";
+  for (const DocumentCampaign& campaign : documentCampaigns(options)) {
+    const fs::path folder = options.campaigns / campaign.block, report = folder / "report";
+    std::vector<std::string> arguments{"campaign", "--folder", folder.string(), "--throws",
+                                       std::to_string(campaign.throws)};
+    arguments.insert(arguments.end(), campaign.arguments.begin(), campaign.arguments.end());
+    fastball(arguments);
+    fastball({"report", folder.string(), "-o", report.string()});
+    for (const auto& [from, to] : campaign.pictures)
+      fs::copy_file(report / (from + ".png"), options.tree / "docs/robustness" / (to + ".png"),
+                    fs::copy_options::overwrite_existing);
+    writeText(path, withBlock(readText(path), campaign.block,
+                              firstTable(readText(report / "report.md"))));
+  }
+}
+
+}  // namespace
+
+const std::vector<DocumentPart>& documentParts() {
+  static const std::vector<DocumentPart> parts = {
+      {"messages", "docs/messages.md from lcmtypes/", makeMessages},
+      {"throw", "three throws: the lines in README.md and docs/throw.png", makeThrow},
+      {"benchmarks", "the tables of docs/benchmarks.md, on a quiet machine", makeBenchmarks},
+      {"robustness", "campaigns: tables and pictures of docs/robustness.md; hours",
+       makeRobustness}};
+  return parts;
+}
+
+}  // namespace fastball::launch

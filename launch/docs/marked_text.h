@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace fastball::launch {
+
+/// A page whose block between the lines `<!-- NAME -->` and `<!-- /NAME -->` is `block` in place of what it was.
+/// @throw std::runtime_error that names the marker if the page does not have it.
+std::string withBlock(const std::string& page, const std::string& name, const std::string& block);
+
+/// A page whose table rows `| `id` | ...` are `row` in place of what they were; `found` tells whether there was one.
+std::string withRow(const std::string& page,
+                    const std::string& id,
+                    const std::string& row,
+                    bool& found);
+
+}  // namespace fastball::launch
