@@ -152,6 +152,7 @@ int conduct(Options options) {
   }
   Campaign campaign = options.campaign;
   campaign.version = messaging::version();
+  study.seed = campaign.seed;
   campaign.cases = casesOf(study, options.folder);
   for (const Case& one : campaign.cases) {
     RunOptions check;

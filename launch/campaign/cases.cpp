@@ -9,12 +9,15 @@
 #include <functional>
 #include <stdexcept>
 
+#include "launch/campaign/region.h"
+
 namespace fastball::launch {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr int kPlaces = 50;              // of study region
 constexpr double kNominalModulus = 5e5;  // [Pa], only to name a case: the files have factors
 
 using Edit = std::function<void(YAML::Node&)>;
@@ -124,6 +127,23 @@ std::vector<Variant> errorVariants(const std::string& study, const std::string& 
   return variants;
 }
 
+std::vector<Variant> regionVariants(const std::string& config, int64_t seed) {
+  std::vector<Variant> variants;
+  for (const Place& place : reachablePlaces(config, kPlaces, seed)) {
+    const Edit there = target([=](double& distance, double& height, double& azimuth) {
+      distance = place.distance;
+      height = place.height;
+      azimuth = place.azimuth;
+    });
+    variants.push_back({fmt::format("{:.2f} m, {:+.1f} deg, {:+.2f} m", place.distance,
+                                    place.azimuth / kPi * 180, place.height),
+                        there,
+                        {},
+                        {}});
+  }
+  return variants;
+}
+
 std::vector<Variant> variantsOf(const std::string& study, const std::string& uncertainty) {
   std::vector<Variant> variants{{"", {}, {}, {}}};
   const auto add = [&](const std::string& name, const Quantity& quantity, const Edit& experiment,
@@ -185,26 +205,38 @@ std::optional<Quantity> unchanged(const std::string& study, const std::string& c
   return {};
 }
 
+/// The experiment with the arm that is asked for, in a file if it is not the experiment's own.
+std::string armFile(const StudyRequest& request, const std::string& folder) {
+  if (request.arm.empty())
+    return request.config;
+  YAML::Node file = load(request.config);
+  file["arm"] = fmt::format("arm/{}.yaml", request.arm);
+  makePathsAbsolute(file, request.config);
+  return written(file, request.config, folder, "experiment " + request.arm);
+}
+
 }  // namespace
 
 const std::vector<std::string>& studyNames() {
-  static const std::vector<std::string> kNames = {
-      "none", "causes", "errors", "scale", "distance", "height", "azimuth", "ball", "speed"};
+  static const std::vector<std::string> kNames = {"none",     "causes", "errors",  "scale",
+                                                  "distance", "height", "azimuth", "region",
+                                                  "ball",     "speed"};
   return kNames;
 }
 
 std::vector<Case> casesOf(const StudyRequest& request, const std::string& folder) {
   fs::create_directories(folder);
   std::vector<Case> cases;
-  for (const Variant& variant : variantsOf(request.study, request.uncertainty)) {
-    std::string config = request.config, uncertainty = request.uncertainty;
-    if (variant.experiment || !request.arm.empty()) {
+  const std::string experiment = armFile(request, folder);
+  const std::vector<Variant> variants = request.study == "region"
+                                            ? regionVariants(experiment, request.seed)
+                                            : variantsOf(request.study, request.uncertainty);
+  for (const Variant& variant : variants) {
+    std::string config = experiment, uncertainty = request.uncertainty;
+    if (variant.experiment) {
       YAML::Node file = load(config);
-      if (!request.arm.empty())
-        file["arm"] = fmt::format("arm/{}.yaml", request.arm);
       makePathsAbsolute(file, config);
-      if (variant.experiment)
-        variant.experiment(file);
+      variant.experiment(file);
       config = written(file, request.config, folder,
                        fmt::format("experiment {}{}", request.arm, variant.name));
     }

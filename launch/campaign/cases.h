@@ -15,6 +15,7 @@ namespace fastball::launch {
 ///   distance  of the target: 2 to 4 m
 ///   height    of the target: -0.8 to 0.8 m
 ///   azimuth   of the target: -60 to 60 degrees
+///   region    of the target: 50 places that the arm reaches, drawn by the seed (launch/campaign/region.h)
 ///   ball      Young's modulus of the real ball: 1e5 to 1e7 Pa, foam to hard
 ///   speed     speed that the planner wants of a throw through a window: 4 to 6 m/s
 const std::vector<std::string>& studyNames();
@@ -26,6 +27,7 @@ struct StudyRequest {
   std::string uncertainty;  ///< file of errors
   std::string
       arm;  ///< profile in place of the experiment's, e.g. "wam4-90v"; empty: the experiment's
+  int64_t seed = 1;  ///< of what a study draws
 };
 
 /// The cases of a study. What differs from the given files is written to `folder` as files of its own, so that `fastball run
