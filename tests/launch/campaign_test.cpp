@@ -7,6 +7,7 @@
 
 #include "launch/campaign/cases.h"
 #include "launch/campaign/part.h"
+#include "launch/campaign/region.h"
 #include "launch/campaign/summary.h"
 #include "launch/run_setup.h"
 #include "sim_bullet/uncertainty.h"
@@ -130,6 +131,21 @@ TEST(CampaignFolder, GoesOnWithItsOwnCampaignAndRefusesAnother) {
               testing::AllOf(HasSubstr("seed"), HasSubstr(where)));
   EXPECT_THAT(sentenceOf([&] { readCampaign(where + "/none"); }),
               HasSubstr("there is no campaign"));
+}
+
+TEST(Region, PlacesAreDrawnByTheSeedWithinTheRegion) {
+  const std::string config = FASTBALL_SOURCE_DIR "/config/experiment.yaml";
+  const std::vector<Place> places = reachablePlaces(config, 4, 7),
+                           again = reachablePlaces(config, 4, 7);
+  ASSERT_EQ(places.size(), 4U);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_EQ(places[i].distance, again[i].distance);
+    EXPECT_GE(places[i].distance, 2);
+    EXPECT_LE(places[i].distance, 4);
+    EXPECT_LE(std::abs(places[i].azimuth), 1.05);
+    EXPECT_LE(std::abs(places[i].height), 0.8);
+  }
+  EXPECT_NE(reachablePlaces(config, 1, 8)[0].distance, places[0].distance);
 }
 
 class CampaignCases : public testing::Test {

@@ -118,7 +118,7 @@ TEST_F(RecordedThrow, DrawsItself) {
   std::string header, line;
   std::getline(table, header);
   std::getline(table, line);
-  EXPECT_THAT(line, testing::StartsWith("1,robust,"));
+  EXPECT_THAT(line, testing::StartsWith("1,adaptive,"));
 }
 
 TEST_F(RecordedThrow, IsFollowedByWhatTheRunWas) {
