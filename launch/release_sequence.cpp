@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "launch/track_flight.h"
 #include "model/arm.h"
-#include "model/ball_flight.h"
 
 namespace fastball::launch {
 namespace {
@@ -27,17 +27,6 @@ double distance(const model::Segment& segment, const Vector3d& p) {
 double distanceFromPalm(const model::HandParameters& hand, const Vector3d& p_H) {
   const double radial = std::hypot(p_H.x(), p_H.y());
   return std::hypot(std::max(0.0, radial - hand.palm_radius), p_H.z() - hand.palm_distance);
-}
-
-/// The tracker's last fit, which has seen the whole flight, at another time. Seen backwards in time a flight is one with drag
-/// of the other sign.
-model::BallState flightAt(const ball_track_t& fit, int64_t utime, double gravity) {
-  const Eigen::Map<const Vector3d> p(fit.p_WBall), v(fit.v_WBall);
-  if (utime >= fit.utime)
-    return model::fly({p, v}, seconds(utime - fit.utime), fit.drag, gravity);
-  model::BallState state = model::fly({p, -v}, seconds(fit.utime - utime), -fit.drag, gravity);
-  state.v_WBall *= -1;
-  return state;
 }
 
 /// Builds the ticks one by one.
@@ -63,6 +52,7 @@ class Poses {
     return tick;
   }
   model::BallState flying(int64_t utime) const {
+    // The last fit has seen the whole flight.
     return flightAt(record_.track.back(), utime, experiment_.arm.gravity);
   }
 

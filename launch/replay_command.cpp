@@ -1,18 +1,15 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
-#include "config/experiment.h"
 #include "launch/commands.h"
+#include "launch/recorded_configuration.h"
 #include "launch/replay.h"
 #include "launch/replay_console.h"
 #include "launch/replay_rerun.h"
-#include "logger/run_record.h"
 #include "messaging/process.h"
 
 namespace fastball::launch {
@@ -25,34 +22,9 @@ struct Options {
   ReplayOptions replay;
 };
 
-/// A folder for the configuration of a recorded run, while it is needed.
-class RecordedConfiguration {
- public:
-  explicit RecordedConfiguration(const std::string& log)
-      : folder_(std::filesystem::temp_directory_path() /
-                fmt::format("fastball-rerun-{}", getpid())) {
-    experiment_ = logger::restoreConfiguration(log, folder_.string());
-  }
-  ~RecordedConfiguration() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  RecordedConfiguration(const RecordedConfiguration&) = delete;
-  RecordedConfiguration& operator=(const RecordedConfiguration&) = delete;
-  /// Empty: the log has none.
-  const std::string& experiment() const { return experiment_; }
-
- private:
-  std::filesystem::path folder_;
-  std::string experiment_;
-};
-
 int runAgain(const Options& options) {
-  const RecordedConfiguration recorded_configuration(options.log);
-  const std::string config = options.config.empty() && !recorded_configuration.experiment().empty()
-                                 ? recorded_configuration.experiment()
-                                 : config::experimentPath(options.config);
-  const auto channels = rerun(options.rerun, options.log, config);
+  const RecordedConfiguration configuration(options.log, options.config);
+  const auto channels = rerun(options.rerun, options.log, configuration.experiment());
   int64_t recorded = 0, equal = 0;
   for (const auto& [name, channel] : channels) {
     std::cout << comparisonLine(name, channel) << '\n';

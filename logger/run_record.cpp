@@ -48,6 +48,16 @@ nlohmann::json readRecord(const std::string& log_path) {
   return json.is_object() ? json : nlohmann::json::object();
 }
 
+std::string textOf(const nlohmann::json& object, const char* name) {
+  const auto member = object.find(name);
+  return member != object.end() && member->is_string() ? member->get<std::string>() : "";
+}
+
+int64_t numberOf(const nlohmann::json& object, const char* name, int64_t otherwise) {
+  const auto member = object.find(name);
+  return member != object.end() && member->is_number_integer() ? member->get<int64_t>() : otherwise;
+}
+
 /// All or nothing, so that a full disk cannot cost the record that is there. Channels and paths may be any bytes.
 bool writeWhole(const std::string& path, const nlohmann::json& json) {
   const std::string unfinished = path + ".new";
@@ -79,6 +89,23 @@ void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_
   if (!writeWhole(runRecordPath(log_path), json))
     throw std::invalid_argument(
         fmt::format("cannot write the record of the run '{}'", runRecordPath(log_path)));
+}
+
+std::optional<WrittenRunRecord> readRunRecord(const std::string& log_path) {
+  const nlohmann::json json = readRecord(log_path);
+  if (json.empty())
+    return {};
+  WrittenRunRecord record;
+  record.version = textOf(json, "version");
+  record.command_line = textOf(json, "command_line");
+  record.config_path = textOf(json, "config");
+  record.seed = numberOf(json, "seed", 0);
+  record.host = textOf(json, "host");
+  record.start_utime = numberOf(json, "start_utime", 0);
+  const auto recording = json.find("recording");
+  if (recording != json.end() && recording->is_object())
+    record.messages = numberOf(*recording, "messages", -1);
+  return record;
 }
 
 std::string restoreConfiguration(const std::string& log_path, const std::string& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "logger/recorder.h"
@@ -15,6 +16,13 @@ struct RunRecord {
   int64_t seed = 0;
 };
 
+/// The same as it was written, with where and when.
+struct WrittenRunRecord : RunRecord {
+  std::string host;
+  int64_t start_utime = 0;  ///< [us since 1970]
+  int64_t messages = -1;    ///< that the logger wrote; -1: it did not come to say so
+};
+
 /// Path of the record that belongs to a log: the log's path with ".run.json" appended.
 std::string runRecordPath(const std::string& log_path);
 
@@ -22,6 +30,10 @@ std::string runRecordPath(const std::string& log_path);
 /// file and of every file in its folder and below, so that the run can be repeated after they have changed.
 /// @throw std::invalid_argument if it cannot be written or the configuration cannot be read.
 void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_t start_utime);
+
+/// What the record beside a log says. A member that is missing or makes no sense is left empty.
+/// @return nothing if there is no record, or one that is no JSON object.
+std::optional<WrittenRunRecord> readRunRecord(const std::string& log_path);
 
 /// Writes the configuration files that the record of a log holds into `folder`.
 /// @return path of the experiment file, or empty if there is no record or it holds none.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launch/report/logged_run.h"
+
+namespace fastball::launch {
+
+/// What a log lacks, in sentences.
+struct Missing {
+  std::vector<std::string> faults;  ///< it should be there
+  std::vector<std::string>
+      notes;  ///< it need not: nobody was to say it, or a few messages were lost
+};
+
+/// A channel is looked for if its sender took part in the run by the HEARTBEATs, or if there are none.
+Missing missingOf(const LoggedRun& run);
+
+/// "1 to 4, 7 and 9". @param numbers ascending.
+std::string numberWords(const std::vector<int64_t>& numbers);
+
+}  // namespace fastball::launch

@@ -1,0 +1,342 @@
+// Arm and ball at even times, and the landing.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "launch/figures/style.h"
+#include "launch/gnuplot.h"
+#include "launch/report/target_face.h"
+#include "launch/report/throw_pictures.h"
+#include "launch/report/throw_times.h"
+#include "launch/track_flight.h"
+#include "model/arm.h"
+
+namespace fastball::launch {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kStrobe = 0.05;       ///< [s], between two poses
+constexpr double kBefore = 0.4;        ///< [s], the picture begins so long before the ball leaves
+constexpr double kAfter = 0.05;        ///< [s], the arm is shown so long after it
+constexpr double kLongestFlight = 10;  ///< [s], that is drawn
+constexpr double kUpperArm = 0.55;     ///< [m], end of the upper arm's centre line, for drawing
+constexpr double kMargin = 0.08;       ///< [m], about what is seen
+constexpr int kWidth = 1000, kLeft = 66, kRight = 12, kTop = 40;      ///< [px]
+constexpr int kFace = 226, kBetween = 96, kBelow = 60, kLabels = 72;  ///< [px]
+constexpr const char *kBefores = "'#0072B2'", *kAfters = "'#D55E00'";
+
+/// Coordinates of a throw: level towards the net, to the left, up.
+class ThrowFrame {
+ public:
+  explicit ThrowFrame(const model::Target& target) : along_(target.p_WTarget) {
+    along_.z() = 0;
+    along_ = along_.norm() > 1e-6 ? Vector3d(along_.normalized()) : Vector3d::UnitX();
+  }
+  Vector3d of(const Vector3d& p_W) const {
+    return {along_.dot(p_W), Vector3d::UnitZ().cross(along_).dot(p_W), p_W.z()};
+  }
+
+ private:
+  Vector3d along_;
+};
+
+/// The arm's centre line from the shoulder to the ball in the hand.
+std::vector<Vector3d> centreLine(const model::Arm& arm,
+                                 const Eigen::Vector4d& q,
+                                 const Vector3d& p_TBall) {
+  return {Vector3d::Zero(),
+          arm.X_WLink(q, 2) * Vector3d(0, 0, kUpperArm),
+          arm.X_WLink(q, 3).translation(),
+          arm.X_WLink(q, 4).translation(),
+          arm.X_WT(q).translation(),
+          arm.p_WPoint(q, p_TBall)};
+}
+
+/// What is drawn, for gnuplot: coordinates of the throw's frame [m].
+struct Strobe {
+  std::string arms_before, arms_after, balls_before, balls_after;
+  std::string times;  ///< of some balls, with words
+  Eigen::AlignedBox3d box;
+};
+
+std::string line(const Vector3d& p) {
+  return fmt::format("{:.4f} {:.4f} {:.4f}\n", p.x(), p.y(), p.z());
+}
+
+void addArm(const std::vector<Vector3d>& centre_line,
+            const ThrowFrame& frame,
+            bool is_before,
+            bool has_ball,
+            Strobe& strobe) {
+  std::string& arms = is_before ? strobe.arms_before : strobe.arms_after;
+  for (const Vector3d& p_W : centre_line) {
+    arms += line(frame.of(p_W));
+    strobe.box.extend(frame.of(p_W));
+  }
+  arms += "\n";
+  if (has_ball)
+    strobe.balls_before += line(frame.of(centre_line.back()));
+}
+
+void addArms(const ThrowRecord& record,
+             const config::Experiment& experiment,
+             const ThrowTimes& times,
+             const ThrowFrame& frame,
+             Strobe& strobe) {
+  const model::Arm arm(experiment.arm, experiment.hand.payload);
+  double next = -kBefore;
+  for (const arm_state_t& state : record.arm) {
+    const double t = times.at(state.utime);
+    if (t < next - 1e-4 || t > kAfter + 1e-4)
+      continue;
+    next += kStrobe * std::ceil((t + 1e-3 - next) / kStrobe);
+    const bool is_before = t <= 1e-3;
+    addArm(centreLine(arm, Eigen::Map<const Eigen::Vector4d>(state.q), experiment.hand.p_HBall),
+           frame, is_before, is_before, strobe);
+  }
+}
+
+void addBall(const Vector3d& p_W, double t, const ThrowFrame& frame, Strobe& strobe) {
+  const Vector3d p = frame.of(p_W);
+  strobe.balls_after += line(p);
+  strobe.box.extend(p);
+  const auto ms = std::lround(1e3 * t);
+  if (ms % 200 == 0)
+    strobe.times += fmt::format("{:.4f} {:.4f} \"{:+.1f} s\"\n", p.x(), p.z(), t);
+}
+
+/// From the tracker's last fit, which has seen the whole flight.
+void addTrackedFlight(const ThrowRecord& record,
+                      double gravity,
+                      const ThrowTimes& times,
+                      const ThrowFrame& frame,
+                      Strobe& strobe) {
+  const ball_track_t& fit = record.track.back();
+  const double last = std::min(times.at(fit.landing_utime), kLongestFlight);
+  for (int k = 1; k * kStrobe < last; ++k) {
+    const auto utime = times.origin + static_cast<int64_t>(1e6 * kStrobe * k);
+    addBall(flightAt(fit, utime, gravity).p_WBall, kStrobe * k, frame, strobe);
+  }
+}
+
+void addTrueFlight(const LoggedThrow& thrown,
+                   const model::Target& target,
+                   const ThrowTimes& times,
+                   const ThrowFrame& frame,
+                   Strobe& strobe) {
+  double next = kStrobe;
+  for (const sim_truth_t& sample : thrown.flight) {
+    const double t = times.at(sample.utime);
+    const Eigen::Map<const Vector3d> p_W(sample.p_WBall);
+    if (t < next - 1e-3 || target.distance(p_W) < 0 || t > kLongestFlight)
+      continue;
+    addBall(p_W, kStrobe * std::round(t / kStrobe), frame, strobe);
+    next = t + kStrobe;
+  }
+}
+
+std::string ringOutline(const model::Target& target, const ThrowFrame& frame, Strobe& strobe) {
+  std::string outline;
+  for (int i = 0; i <= 72; ++i) {
+    const double angle = i * M_PI / 36;
+    const Vector3d p =
+        frame.of(target.p_WTarget + target.radius * (std::cos(angle) * target.rightAxis() +
+                                                     std::sin(angle) * target.upAxis()));
+    outline += line(p);
+    strobe.box.extend(p);
+  }
+  return outline;
+}
+
+/// A picture's panels in pixels from the upper left corner.
+class Sheet {
+ public:
+  explicit Sheet(const Eigen::AlignedBox3d& box) : box_(box) {
+    const Vector3d size = box.sizes();
+    side_ = static_cast<int>((kWidth - kLeft - kRight) * size.z() / size.x());
+    above_width_ = kWidth - kLeft - kRight - 2 * (kFace + kBetween);
+    above_ = static_cast<int>(above_width_ * size.y() / size.x());
+    lower_ = std::max(above_, kFace);
+  }
+  int height() const { return kTop + side_ + kLabels + 24 + lower_ + kBelow; }
+  std::string sidePanel() const {
+    return margins(kLeft, kTop, kWidth - kLeft - kRight, side_) + ranges(2);
+  }
+  std::string abovePanel() const {
+    return margins(kLeft, lowerTop(), above_width_, above_) + ranges(1);
+  }
+  /// 0: the whole net; 1: the landing enlarged.
+  std::string facePanel(int i) const {
+    return margins(kLeft + above_width_ + kBetween + i * (kFace + kBetween), lowerTop(), kFace,
+                   kFace);
+  }
+
+ private:
+  int lowerTop() const { return kTop + side_ + kLabels + 24; }
+  std::string margins(int left, int top, int width, int height_of_panel) const {
+    const double h = height();
+    return fmt::format(
+        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}\n"
+        "set tmargin at screen {:.5f}; set bmargin at screen {:.5f}\n",
+        static_cast<double>(left) / kWidth, static_cast<double>(left + width) / kWidth, 1 - top / h,
+        1 - (top + height_of_panel) / h);
+  }
+  std::string ranges(int axis) const {
+    return fmt::format("set xrange [{:.4f}:{:.4f}]; set yrange [{:.4f}:{:.4f}]\n", box_.min().x(),
+                       box_.max().x(), box_.min()[axis], box_.max()[axis]);
+  }
+  Eigen::AlignedBox3d box_;
+  int side_ = 0, above_ = 0, above_width_ = 0, lower_ = 0;
+};
+
+/// gnuplot clauses of arms, balls and ring in the columns 1 and `column`.
+std::string strobePlot(int column, double radius) {
+  const auto balls = [&](const char* block, const char* colour) {
+    return fmt::format(
+        ", {} u 1:{}:({}) w circles fs transparent solid 0.35 border lc rgb {} lc rgb {}", block,
+        column, radius, colour, colour);
+  };
+  return fmt::format(
+             "plot $arms_before u 1:{0} w l lw 2 lc rgb {1}, $arms_after u 1:{0} w l lw 2 lc rgb "
+             "{2}",
+             column, kBefores, kAfters) +
+         balls("$balls_before", kBefores) + balls("$balls_after", kAfters) +
+         fmt::format(", $ring u 1:{} w l lw 4 lc rgb '#222222'", column);
+}
+
+/// The net's face: its ring, and the landing with its ellipse and the truth.
+std::string facePlots(const LoggedThrow& thrown,
+                      const Sheet& sheet,
+                      double ring_mm,
+                      double ball_mm) {
+  std::vector<Vector2d> marks;  // [mm]
+  std::string points;
+  if (thrown.isMeasured()) {
+    marks.emplace_back(1e3 * thrown.record.landing->landing[0],
+                       1e3 * thrown.record.landing->landing[1]);
+    points += ", $ellipse w l lw 2 lc rgb " + std::string(kAfters) +
+              ", $measured w p pt 1 ps 1.3 lw 2 lc rgb " + kAfters;
+  }
+  if (thrown.truth.landing) {
+    marks.emplace_back(1e3 * *thrown.truth.landing);
+    points += ", $true w p pt 6 ps 1.3 lw 2 lc rgb '#000000'";
+  }
+  if (marks.empty())
+    return sheet.facePanel(0) +
+           "set label 9 'no landing' at graph 0.5,0.5 center front\nplot NaN\nunset label 9\n";
+  double farthest = ring_mm, spread = 0.5;
+  for (const Vector2d& mark : marks)
+    farthest = std::max(farthest, mark.lpNorm<Eigen::Infinity>());
+  const Vector2d centre = (marks.front() + marks.back()) / 2;
+  for (const Vector2d& mark : marks)
+    spread = std::max(spread, (mark - centre).lpNorm<Eigen::Infinity>());
+  if (thrown.isMeasured())
+    spread += 1e3 * extent95(*thrown.record.landing).maxCoeff();
+  return fmt::format(
+      "set size noratio; set format '%g'; set xtics autofreq; set ytics autofreq\n"
+      "set xlabel 'right (mm)' offset 0,0.5; set ylabel 'up (mm)' offset 1.2,0\n"
+      "{0}set title 'The net, seen from the robot' offset 0,-0.6\n"
+      "set xrange [-{1}:{1}]; set yrange [-{1}:{1}]\nset xtics 100; set ytics 100\n"
+      "plot $circle u ({2}*$1):({2}*$2) w l lw 3 lc rgb '#222222', "
+      "$circle u ({3}*$1):({3}*$2) w l lw 1.5 dt 2 lc rgb '#222222'{4}\n"
+      "{5}set title 'The landing, enlarged' offset 0,-0.6\n"
+      "set xrange [{6:.3f}:{7:.3f}]; set yrange [{8:.3f}:{9:.3f}]; set xtics autofreq {10}; set "
+      "ytics autofreq {10}\nplot NaN{4}\n",
+      sheet.facePanel(0), 1.25 * farthest, ring_mm, std::max(ring_mm - ball_mm, 0.0), points,
+      sheet.facePanel(1), centre.x() - 1.5 * spread, centre.x() + 1.5 * spread,
+      centre.y() - 1.5 * spread, centre.y() + 1.5 * spread, spread);
+}
+
+std::string circle() {
+  std::string outline;
+  for (int i = 0; i <= 72; ++i)
+    outline += fmt::format("{:.5f} {:.5f}\n", std::cos(i * M_PI / 36), std::sin(i * M_PI / 36));
+  return outline;
+}
+
+std::string orNothing(const std::string& data) {
+  return data.empty() ? "NaN NaN NaN\n" : data;
+}
+
+std::string blocksOf(const LoggedThrow& thrown, const Strobe& strobe, const std::string& ring) {
+  std::string blocks = dataBlock("arms_before", orNothing(strobe.arms_before)) +
+                       dataBlock("arms_after", orNothing(strobe.arms_after)) +
+                       dataBlock("balls_before", orNothing(strobe.balls_before)) +
+                       dataBlock("balls_after", orNothing(strobe.balls_after)) +
+                       dataBlock("times", strobe.times.empty() ? "NaN NaN \"\"\n" : strobe.times) +
+                       dataBlock("ring", ring) + dataBlock("circle", circle());
+  if (thrown.isMeasured()) {
+    const landing_t& landing = *thrown.record.landing;
+    blocks += dataBlock("ellipse", ellipse95(landing)) +
+              dataBlock("measured", fmt::format("{:.4f} {:.4f}\n", 1e3 * landing.landing[0],
+                                                1e3 * landing.landing[1]));
+  }
+  if (thrown.truth.landing)
+    blocks += dataBlock("true", fmt::format("{:.4f} {:.4f}\n", 1e3 * thrown.truth.landing->x(),
+                                            1e3 * thrown.truth.landing->y()));
+  return blocks;
+}
+
+std::string captionOf(const LoggedThrow& thrown, const ThrowTimes& times, bool tracked) {
+  std::string caption = fmt::format(
+      "Arm and ball every {:.0f} ms, in their true proportions: blue until {}, orange after it",
+      1e3 * kStrobe, times.of_origin);
+  caption += tracked                 ? "; the flight is the tracker's."
+             : thrown.flight.empty() ? "; nobody says where the ball flew."
+                                     : "; the flight is the simulator's, for no tracker saw it.";
+  caption += " In the net's face: ring and, dashed, the ring for the whole ball";
+  if (thrown.isMeasured())
+    caption += fmt::format(
+        "; cross: the landing measured, ({:+.2f}, {:+.2f}) mm, with its 95 % ellipse",
+        1e3 * thrown.record.landing->landing[0], 1e3 * thrown.record.landing->landing[1]);
+  if (thrown.truth.landing)
+    caption += fmt::format("; circle: the true one, ({:+.2f}, {:+.2f}) mm",
+                           1e3 * thrown.truth.landing->x(), 1e3 * thrown.truth.landing->y());
+  return caption + ".";
+}
+
+}  // namespace
+
+std::string drawThrow(const LoggedThrow& thrown,
+                      const config::Experiment& experiment,
+                      const std::string& path_stem) {
+  const ThrowRecord& record = thrown.record;
+  if (record.arm.empty())
+    throw std::runtime_error("the log has no ARM_STATE");
+  const ThrowTimes times = timesOf(record);
+  const model::Target target = targetOf(thrown, experiment);
+  const ThrowFrame frame(target);
+  Strobe strobe;
+  addArms(record, experiment, times, frame, strobe);
+  const bool tracked = !record.track.empty() && record.departed;
+  if (tracked)
+    addTrackedFlight(record, experiment.arm.gravity, times, frame, strobe);
+  else
+    addTrueFlight(thrown, target, times, frame, strobe);
+  const std::string ring = ringOutline(target, frame, strobe);
+  const double room = experiment.ball.radius + kMargin;
+  strobe.box =
+      Eigen::AlignedBox3d(strobe.box.min().array() - room, strobe.box.max().array() + room);
+  const Sheet sheet(strobe.box);
+  drawPicture(
+      path_stem, kWidth, sheet.height(), blocksOf(thrown, strobe, ring),
+      kStyle +
+          fmt::format(
+              "set termoption noenhanced\nset multiplot\nset key off\n"
+              "set xlabel 'towards the net (m)' offset 0,0.5\n"
+              "{}set title 'Side view' offset 0,-0.6\nset ylabel 'up (m)' offset 1.2,0\n"
+              "set xtics 0.5; set ytics 0.2\n{}, $times u 1:2:3 w labels offset 0,1.6 font ',10'\n"
+              "{}set title 'Seen from above' offset 0,-0.6\nset ylabel 'left (m)' offset 1.2,0\n"
+              "set xtics 1; set ytics 0.5\n{}\n{}unset multiplot\n",
+              sheet.sidePanel(), strobePlot(3, experiment.ball.radius), sheet.abovePanel(),
+              strobePlot(2, experiment.ball.radius),
+              facePlots(thrown, sheet, 1e3 * target.radius, 1e3 * experiment.ball.radius)));
+  return captionOf(thrown, times, tracked);
+}
+
+}  // namespace fastball::launch
