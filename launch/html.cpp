@@ -54,7 +54,7 @@ th { background: var(--band); font-weight: 600; }
 thead th { vertical-align: bottom; }
 th.n, td.n { text-align: right; }
 td.n { white-space: nowrap; }
-td { overflow-wrap: anywhere; }
+td.p { overflow-wrap: anywhere; min-width: 7rem; }
 .wide { overflow-x: auto; margin: .8rem 0 1.2rem; }
 code { font: .92em "DejaVu Sans Mono", ui-monospace, monospace; overflow-wrap: anywhere; }
 figure { margin: 1rem 0 1.4rem; }
@@ -128,7 +128,11 @@ Html htmlTable(const std::string& caption,
   for (const std::vector<Html>& row : rows) {
     table += {"<tr>"};
     for (std::size_t i = 0; i < row.size(); ++i)
-      table += html("<td{}>{}</td>", Html{columns.at(i).number ? " class=\"n\"" : ""}, row[i]);
+      table += html("<td{}>{}</td>",
+                    Html{columns.at(i).prose    ? " class=\"p\""
+                         : columns.at(i).number ? " class=\"n\""
+                                                : ""},
+                    row[i]);
     table += {"</tr>\n"};
   }
   table += {"</tbody></table></div>\n"};

@@ -50,6 +50,7 @@ Html html(const char* pattern, const Values&... values) {
 struct HtmlColumn {
   std::string title;  ///< with its unit
   bool number = true;
+  bool prose = false;  ///< long words may be broken
 };
 
 /// A table. @param rows as many cells each as there are columns. @param caption above it; may be empty.

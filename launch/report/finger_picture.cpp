@@ -37,12 +37,12 @@ Table tableOf(const ThrowRecord& record, const ThrowTimes& times) {
 }
 
 std::string curves(int first_column) {
-  // A and B stand behind the ball side by side: their curves often coincide, so one is dashed.
+  // A and B stand behind the ball side by side: where their curves are one, both are seen.
+  constexpr double kWidths[] = {4.5, 2.5, 1.5};
   std::string plot;
   for (int finger = 0; finger < model::kFingers; ++finger)
-    plot += fmt::format("{} $f u 1:{} w l lw 2.5 {} lc rgb {} title '{}'",
-                        plot.empty() ? "plot" : ",", first_column + finger,
-                        finger == model::kFingerB ? "dt 2" : "", kColours[finger], kNames[finger]);
+    plot += fmt::format("{} $f u 1:{} w l lw {} lc rgb {} title '{}'", plot.empty() ? "plot" : ",",
+                        first_column + finger, kWidths[finger], kColours[finger], kNames[finger]);
   return plot + "\n";
 }
 
@@ -62,16 +62,16 @@ std::string commandsOf(const ThrowTimes& times) {
          fmt::format(
              "set multiplot\nset termoption noenhanced\nset xrange [{0}:{1}]; set yrange [0:*]\n"
              "set offsets graph 0, graph 0, graph 0.05, graph 0\n"
-             "set tmargin at screen 0.88; set bmargin at screen 0.175\n{2}{3}{4}"
+             "set tmargin at screen 0.91; set bmargin at screen 0.175\n{2}{3}{4}"
              "set xlabel {5} offset 0,0.4\n"
-             "set lmargin at screen 0.075; set rmargin at screen 0.51\n"
-             "set ylabel 'normal force (N)' offset 0.8,0\n"
-             "set key at screen 0.985,0.99 top right horizontal samplen 2.5\n{6}"
-             "set lmargin at screen 0.57; set rmargin at screen 0.985; set key off\n"
-             "set ylabel 'tangential force (N)' offset 0.8,0\n{7}unset multiplot\n",
+             "set lmargin at screen 0.065; set rmargin at screen 0.49\n"
+             "set ylabel 'normal force (N)' offset 1,0\n"
+             "set key at graph 0.985,0.97 top right vertical samplen 2.5\n{6}"
+             "set lmargin at screen 0.575; set rmargin at screen 0.985; set key off\n"
+             "set ylabel 'tangential force (N)' offset 1,0\n{7}unset multiplot\n",
              -1e3 * kShown, 1e3 * kShown, windowBox(times),
-             momentLine(1, times.command, 1e3, kGrey, "told to let go"),
-             momentLine(2, times.departure, 1e3, kGrey, "ball leaves"),
+             momentLine(1, times.command, 1e3, "told to let go", WordsAt::kLeft),
+             momentLine(2, times.departure, 1e3, "ball leaves", WordsAt::kRight),
              quoted("time from " + times.of_origin + " (ms)"), curves(2), curves(5));
 }
 

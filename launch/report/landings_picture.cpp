@@ -68,35 +68,47 @@ double farthest(const Table& table, double ring_mm) {
   return most;
 }
 
+/// One coordinate over the number of the throw. @param column of the measured one; 2: right, 3: up.
+std::string stripPlot(const Table& table, std::size_t column) {
+  double least = INFINITY, most = -INFINITY;
+  for (const std::vector<double>& row : table.rows) {
+    const double measured = row[column - 1], half = row[column + 1], truth = row[column + 3];
+    least = std::fmin(std::fmin(least, measured - half), truth);
+    most = std::fmax(std::fmax(most, measured + half), truth);
+  }
+  const double size = std::max(most - least, 0.1);
+  return fmt::format(
+      "set yrange [{0:.4f}:{1:.4f}]; set ytics {2:g}\n"
+      "plot $l u 1:{3}:{4} w yerrorbars pt 7 ps 0.9 lw 2 lc rgb {5} title 'measured, 95 % "
+      "interval', $l u 1:{6} w p pt 2 ps 1.2 lw 2 lc rgb '#000000' title 'true'\n",
+      least - 0.1 * size, most + 0.1 * size, roundStep(size / 4), column, column + 2, kColours[1],
+      column + 4);
+}
+
 std::string commandsOf(const Table& table, double half_width) {
   const double first = table.rows.front()[0] - 0.6, last = table.rows.back()[0] + 0.6;
-  const bool few = table.rows.size() <= 20;
-  const std::string strip =
-      "plot $l u 1:{}:{} w yerrorbars pt 1 ps 0.9 lw 2 lc rgb {} title 'measured, 95 % interval', "
-      "$l u 1:{} w p pt 6 ps 1.1 lw 2 lc rgb '#000000' title 'true'\n";
   return kStyle +
          fmt::format(
              "set termoption noenhanced\nset multiplot\n"
-             "set lmargin at screen 0.08; set rmargin at screen 0.43\n"
-             "set tmargin at screen 0.925; set bmargin at screen 0.125\n"
-             "set xrange [-{0}:{0}]; set yrange [-{0}:{0}]; set key off\n"
-             "set title 'The net, seen from the robot' offset 0,-0.6\n"
+             "set lmargin at screen 0.07; set rmargin at screen 0.435\n"
+             "set tmargin at screen 0.92; set bmargin at screen 0.125\n"
+             "set xrange [-{0}:{0}]; set yrange [-{0}:{0}]; set xtics {1:g}; set ytics {1:g}\n"
+             "set title 'The net, seen from the robot' offset 0,-0.6; set key off\n"
              "set xlabel 'right (mm)' offset 0,0.4; set ylabel 'up (mm)' offset 1,0\n"
              "plot $rings index 0 w l lw 3 lc rgb '#222222', $rings index 1 w l lw 1.5 dt 2 lc rgb "
-             "'#222222', $ellipses w l lw 1.5 lc rgb {1}, $l u 2:3 w p pt 1 ps 1 lw 2 lc rgb {1}, "
-             "$l u 6:7 w p pt 6 ps 1 lw 1.5 lc rgb '#000000'\n"
-             "set lmargin at screen 0.53; set rmargin at screen 0.985; unset title\n"
-             "set xrange [{2}:{3}]; set yrange [*:*]; {4}\n"
-             "set offsets graph 0, graph 0, graph 0.1, graph 0.1\n"
-             "set tmargin at screen 0.925; set bmargin at screen 0.56; set format x ''; unset "
-             "xlabel\n"
-             "set ylabel 'right (mm)'; set key at screen 0.985,0.995 top right horizontal\n{5}"
-             "set tmargin at screen 0.49; set bmargin at screen 0.125; set format x '%g'; set key "
-             "off\n"
-             "set xlabel 'throw' offset 0,0.4; set ylabel 'up (mm)'\n{6}unset multiplot\n",
-             half_width, kColours[1], first, last, few ? "set xtics 1" : "set xtics autofreq",
-             fmt::format(fmt::runtime(strip), 2, 4, kColours[1], 6),
-             fmt::format(fmt::runtime(strip), 3, 5, kColours[1], 7));
+             "'#222222', $ellipses w l lw 1.5 lc rgb {2}, $l u 2:3 w p pt 7 ps 0.6 lc rgb {2}, "
+             "$l u 6:7 w p pt 2 ps 0.8 lw 1.5 lc rgb '#000000'\n"
+             "set lmargin at screen 0.535; set rmargin at screen 0.985; unset title\n"
+             "set xrange [{3}:{4}]; set xtics {5:g}\n"
+             "set tmargin at screen 0.92; set bmargin at screen 0.555; set format x ''\n"
+             "set key at screen 0.985,0.995 top right horizontal maxrows 1; unset xlabel\n"
+             "set ylabel 'right (mm)'\n{6}"
+             "set tmargin at screen 0.49; set bmargin at screen 0.125; set format x '%g'\n"
+             "set key off; set xlabel 'throw' offset 0,0.4; set ylabel 'up (mm)'\n{7}"
+             "unset multiplot\n",
+             half_width, roundStep(half_width / 2.5), kColours[1], first, last,
+             std::max(1.0, roundStep((last - first) / 20)), stripPlot(table, 2),
+             stripPlot(table, 3));
 }
 
 }  // namespace
@@ -116,9 +128,10 @@ std::string drawRunLandings(const LoggedRun& run,
       path_stem, 1000, 440,
       dataBlock("l", plotData(table)) + outlinesOf(run, ring_mm, 1e3 * experiment.ball.radius),
       commandsOf(table, 1.2 * farthest(table, ring_mm)));
-  return "Left: all landings in the ring; within the dashed circle the whole ball passes. Crosses "
-         "are "
-         "measured, with their 95 % ellipses; circles are true. Right: the same for each throw.";
+  return "Left: all landings in the ring; the whole ball passes if its centre is within the dashed "
+         "circle. Orange: measured, with 95 % ellipses; black crosses: true. Right: the same for "
+         "each "
+         "throw.";
 }
 
 }  // namespace fastball::launch

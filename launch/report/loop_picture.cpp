@@ -44,13 +44,13 @@ std::string drawLoops(const LoggedRun& run, const std::string& path_stem) {
               "set termoption noenhanced\nset lmargin at screen 0.24; set rmargin at screen 0.985\n"
               "set tmargin at screen {0:.4f}; set bmargin at screen {1:.4f}\n"
               "set logscale x; set xrange [{2}:{3}]; set yrange [{4}:0.5]\n"
-              "set xlabel 'time of a loop (us), logarithmic' offset 0,0.4; set ytics ({5}) scale "
+              "set xlabel 'time of a loop (µs), logarithmic' offset 0,0.4; set ytics ({5}) scale "
               "0\n"
-              "set key at screen 0.985,{6:.4f} top right horizontal\n"
+              "set key at screen 0.985,{6:.4f} top right horizontal maxrows 1\n"
               "plot $p u 2:1:2:4 w xerrorbars pt 0 lw 1.5 lc rgb '#909090' notitle, "
-              "'' u 2:1 w p pt 7 ps 1.2 lc rgb {7} title 'mean (its median over the run)', "
-              "'' u 3:1 w p pt 6 ps 1.2 lw 2 lc rgb {7} title 'largest mean of a second', "
-              "'' u 4:1 w p pt 9 ps 1.4 lc rgb {8} title 'longest of all'\n",
+              "'' u 2:1 w p pt 7 ps 1.2 lc rgb {7} title 'mean (median over the run)', "
+              "'' u 3:1 w p pt 6 ps 1.2 lw 2 lc rgb {7} title 'largest mean', "
+              "'' u 4:1 w p pt 9 ps 1.4 lc rgb {8} title 'longest'\n",
               1 - 40.0 / height, 56.0 / height, std::max(kLeast, least / 2), 2 * most, 0.5 - rows,
               tics, 1 - 6.0 / height, kColours[0], kColours[1]));
   return "By the HEARTBEATs of each process: how long it took to handle what one turn of its loop "

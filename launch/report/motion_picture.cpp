@@ -54,8 +54,8 @@ std::string curves(int first_column, bool differential) {
   std::string plot =
       "plot 100 w l lw 1.5 dt 2 lc rgb '#000000', -100 w l lw 1.5 dt 2 lc rgb '#000000'";
   if (differential)
-    plot += fmt::format(", $m u 1:{} w l lw 1.5 lc rgb '#909090' title 'J2 and J3 together'",
-                        first_column + kPair);
+    plot +=
+        fmt::format(", $m u 1:{} w l lw 1.5 lc rgb '#909090' title 'J2+J3'", first_column + kPair);
   for (int joint = 0; joint < model::kArmJoints; ++joint)
     plot += fmt::format(", $m u 1:{} w l lw 2 lc rgb {} title 'J{}'", first_column + joint,
                         kColours[joint], joint + 1);
@@ -63,22 +63,23 @@ std::string curves(int first_column, bool differential) {
 }
 
 std::string commandsOf(const ThrowTimes& times, double t_first, double t_last, bool differential) {
-  const std::string moments = momentLine(1, times.swing, 1, kGrey, "swing begins") +
-                              momentLine(2, times.departure, 1, kGrey, "ball leaves") +
-                              momentLine(3, times.swing_end, 1, kGrey, "follow-through");
-  return kStyle + fmt::format(
-                      "set multiplot\nset termoption noenhanced\n"
-                      "set lmargin at screen 0.075; set rmargin at screen 0.985; set xrange "
-                      "[{:.4f}:{:.4f}]\n"
-                      "set yrange [-115:115]; set ytics 50\n{}"
-                      "set tmargin at screen 0.925; set bmargin at screen 0.535\n"
-                      "set format x ''; set ylabel 'speed (% of the limit)' offset 0.8,0\n"
-                      "set key at screen 0.985,0.995 top right horizontal samplen 2\n{}"
-                      "set tmargin at screen 0.49; set bmargin at screen 0.105; set key off\n"
-                      "set format x '%g'; set xlabel {} offset 0,0.4\n"
-                      "set ylabel 'torque (% of the limit)' offset 0.8,0\n{}unset multiplot\n",
-                      t_first, t_last, moments, curves(10, differential),
-                      quoted("time from " + times.of_origin + " (s)"), curves(15, differential));
+  const std::string moments = momentLine(1, times.swing, 1, "swing begins", WordsAt::kMiddle) +
+                              momentLine(2, times.departure, 1, "ball leaves", WordsAt::kLeft) +
+                              momentLine(3, times.swing_end, 1, "follow-through", WordsAt::kRight);
+  return kStyle +
+         fmt::format(
+             "set multiplot\nset termoption noenhanced\n"
+             "set lmargin at screen 0.075; set rmargin at screen 0.985; set xrange "
+             "[{:.4f}:{:.4f}]\n"
+             "set yrange [-115:115]; set ytics 50\n{}"
+             "set tmargin at screen 0.895; set bmargin at screen 0.52\n"
+             "set format x ''; set ylabel 'speed (% of the limit)' offset 0.8,0\n"
+             "set key at screen 0.985,0.995 top right horizontal samplen 2 maxrows 1\n{}"
+             "unset label\nset tmargin at screen 0.48; set bmargin at screen 0.105; set key off\n"
+             "set format x '%g'; set xlabel {} offset 0,0.4\n"
+             "set ylabel 'torque (% of the limit)' offset 0.8,0\n{}unset multiplot\n",
+             t_first, t_last, moments, curves(10, differential),
+             quoted("time from " + times.of_origin + " (s)"), curves(15, differential));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // What the tracker saw less what its last fit says.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "launch/figures/style.h"
@@ -49,6 +49,15 @@ CameraResiduals residualsOf(const LoggedThrow& thrown,
   return residuals;
 }
 
+double farthest(const std::vector<CameraResiduals>& cameras) {
+  double most = 1e-3;
+  for (const CameraResiduals& camera : cameras) {
+    for (const std::vector<double>& row : camera.table.rows)
+      most = std::max({most, std::abs(row[1]), std::abs(row[2])});
+  }
+  return most;
+}
+
 std::string commandsOf(const std::vector<CameraResiduals>& cameras, const ThrowTimes& times) {
   std::string plots[2];
   for (int axis = 0; axis < 2; ++axis) {
@@ -61,13 +70,14 @@ std::string commandsOf(const std::vector<CameraResiduals>& cameras, const ThrowT
          fmt::format(
              "set multiplot\nset termoption noenhanced\nset xzeroaxis lw 1 lc rgb '#404040'\n"
              "set tmargin at screen 0.88; set bmargin at screen 0.175; set xrange [0:*]\n"
-             "set offsets graph 0, graph 0, graph 0.08, graph 0.08\nset xlabel {} offset 0,0.4\n"
-             "set lmargin at screen 0.085; set rmargin at screen 0.51\n"
+             "set yrange [-{0:.4f}:{0:.4f}]; set xlabel {1} offset 0,0.4\n"
+             "set lmargin at screen 0.085; set rmargin at screen 0.49\n"
              "set ylabel 'seen - fit, to the right (px)' offset 0.8,0\n"
-             "set key at screen 0.985,0.99 top right horizontal samplen 1\n{}\n"
+             "set key at screen 0.985,0.99 top right horizontal samplen 1 maxrows 1\n{2}\n"
              "set lmargin at screen 0.58; set rmargin at screen 0.985; set key off\n"
-             "set ylabel 'seen - fit, down (px)' offset 0.8,0\n{}\nunset multiplot\n",
-             quoted("time from " + times.of_origin + " (s)"), plots[0], plots[1]);
+             "set ylabel 'seen - fit, down (px)' offset 0.8,0\n{3}\nunset multiplot\n",
+             1.08 * farthest(cameras), quoted("time from " + times.of_origin + " (s)"), plots[0],
+             plots[1]);
 }
 
 Table allOf(const std::vector<CameraResiduals>& cameras) {

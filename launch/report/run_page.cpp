@@ -172,9 +172,9 @@ Html processTable(const LoggedRun& run) {
                     {"received"},
                     {"lost"},
                     {"refused"},
-                    {"loop, mean (us)"},
-                    {"longest (us)"},
-                    {"says", false}},
+                    {"loop, mean (µs)"},
+                    {"longest (µs)"},
+                    {"says", false, true}},
                    rows);
 }
 

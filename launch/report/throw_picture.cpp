@@ -21,13 +21,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kStrobe = 0.05;       ///< [s], between two poses
+constexpr double kHalfTick = 0.5e-3;   ///< [s]
 constexpr double kBefore = 0.4;        ///< [s], the picture begins so long before the ball leaves
 constexpr double kAfter = 0.05;        ///< [s], the arm is shown so long after it
 constexpr double kLongestFlight = 10;  ///< [s], that is drawn
 constexpr double kUpperArm = 0.55;     ///< [m], end of the upper arm's centre line, for drawing
 constexpr double kMargin = 0.08;       ///< [m], about what is seen
 constexpr int kWidth = 1000, kLeft = 66, kRight = 12, kTop = 40;      ///< [px]
-constexpr int kFace = 226, kBetween = 96, kBelow = 60, kLabels = 72;  ///< [px]
+constexpr int kFace = 206, kBetween = 84, kBelow = 60, kLabels = 72;  ///< [px]
 constexpr const char *kBefores = "'#0072B2'", *kAfters = "'#D55E00'";
 
 /// Coordinates of a throw: level towards the net, to the left, up.
@@ -92,10 +93,10 @@ void addArms(const ThrowRecord& record,
   double next = -kBefore;
   for (const arm_state_t& state : record.arm) {
     const double t = times.at(state.utime);
-    if (t < next - 1e-4 || t > kAfter + 1e-4)
+    if (t < next - kHalfTick || t > kAfter + 2 * kHalfTick)
       continue;
-    next += kStrobe * std::ceil((t + 1e-3 - next) / kStrobe);
-    const bool is_before = t <= 1e-3;
+    next += kStrobe * std::ceil((t + 2 * kHalfTick - next) / kStrobe);
+    const bool is_before = t <= kHalfTick;
     addArm(centreLine(arm, Eigen::Map<const Eigen::Vector4d>(state.q), experiment.hand.p_HBall),
            frame, is_before, is_before, strobe);
   }
@@ -209,77 +210,17 @@ std::string strobePlot(int column, double radius) {
          fmt::format(", $ring u 1:{} w l lw 4 lc rgb '#222222'", column);
 }
 
-/// The net's face: its ring, and the landing with its ellipse and the truth.
-std::string facePlots(const LoggedThrow& thrown,
-                      const Sheet& sheet,
-                      double ring_mm,
-                      double ball_mm) {
-  std::vector<Vector2d> marks;  // [mm]
-  std::string points;
-  if (thrown.isMeasured()) {
-    marks.emplace_back(1e3 * thrown.record.landing->landing[0],
-                       1e3 * thrown.record.landing->landing[1]);
-    points += ", $ellipse w l lw 2 lc rgb " + std::string(kAfters) +
-              ", $measured w p pt 1 ps 1.3 lw 2 lc rgb " + kAfters;
-  }
-  if (thrown.truth.landing) {
-    marks.emplace_back(1e3 * *thrown.truth.landing);
-    points += ", $true w p pt 6 ps 1.3 lw 2 lc rgb '#000000'";
-  }
-  if (marks.empty())
-    return sheet.facePanel(0) +
-           "set label 9 'no landing' at graph 0.5,0.5 center front\nplot NaN\nunset label 9\n";
-  double farthest = ring_mm, spread = 0.5;
-  for (const Vector2d& mark : marks)
-    farthest = std::max(farthest, mark.lpNorm<Eigen::Infinity>());
-  const Vector2d centre = (marks.front() + marks.back()) / 2;
-  for (const Vector2d& mark : marks)
-    spread = std::max(spread, (mark - centre).lpNorm<Eigen::Infinity>());
-  if (thrown.isMeasured())
-    spread += 1e3 * extent95(*thrown.record.landing).maxCoeff();
-  return fmt::format(
-      "set size noratio; set format '%g'; set xtics autofreq; set ytics autofreq\n"
-      "set xlabel 'right (mm)' offset 0,0.5; set ylabel 'up (mm)' offset 1.2,0\n"
-      "{0}set title 'The net, seen from the robot' offset 0,-0.6\n"
-      "set xrange [-{1}:{1}]; set yrange [-{1}:{1}]\nset xtics 100; set ytics 100\n"
-      "plot $circle u ({2}*$1):({2}*$2) w l lw 3 lc rgb '#222222', "
-      "$circle u ({3}*$1):({3}*$2) w l lw 1.5 dt 2 lc rgb '#222222'{4}\n"
-      "{5}set title 'The landing, enlarged' offset 0,-0.6\n"
-      "set xrange [{6:.3f}:{7:.3f}]; set yrange [{8:.3f}:{9:.3f}]; set xtics autofreq {10}; set "
-      "ytics autofreq {10}\nplot NaN{4}\n",
-      sheet.facePanel(0), 1.25 * farthest, ring_mm, std::max(ring_mm - ball_mm, 0.0), points,
-      sheet.facePanel(1), centre.x() - 1.5 * spread, centre.x() + 1.5 * spread,
-      centre.y() - 1.5 * spread, centre.y() + 1.5 * spread, spread);
-}
-
-std::string circle() {
-  std::string outline;
-  for (int i = 0; i <= 72; ++i)
-    outline += fmt::format("{:.5f} {:.5f}\n", std::cos(i * M_PI / 36), std::sin(i * M_PI / 36));
-  return outline;
-}
-
 std::string orNothing(const std::string& data) {
   return data.empty() ? "NaN NaN NaN\n" : data;
 }
 
-std::string blocksOf(const LoggedThrow& thrown, const Strobe& strobe, const std::string& ring) {
-  std::string blocks = dataBlock("arms_before", orNothing(strobe.arms_before)) +
-                       dataBlock("arms_after", orNothing(strobe.arms_after)) +
-                       dataBlock("balls_before", orNothing(strobe.balls_before)) +
-                       dataBlock("balls_after", orNothing(strobe.balls_after)) +
-                       dataBlock("times", strobe.times.empty() ? "NaN NaN \"\"\n" : strobe.times) +
-                       dataBlock("ring", ring) + dataBlock("circle", circle());
-  if (thrown.isMeasured()) {
-    const landing_t& landing = *thrown.record.landing;
-    blocks += dataBlock("ellipse", ellipse95(landing)) +
-              dataBlock("measured", fmt::format("{:.4f} {:.4f}\n", 1e3 * landing.landing[0],
-                                                1e3 * landing.landing[1]));
-  }
-  if (thrown.truth.landing)
-    blocks += dataBlock("true", fmt::format("{:.4f} {:.4f}\n", 1e3 * thrown.truth.landing->x(),
-                                            1e3 * thrown.truth.landing->y()));
-  return blocks;
+std::string blocksOf(const Strobe& strobe, const std::string& ring) {
+  return dataBlock("arms_before", orNothing(strobe.arms_before)) +
+         dataBlock("arms_after", orNothing(strobe.arms_after)) +
+         dataBlock("balls_before", orNothing(strobe.balls_before)) +
+         dataBlock("balls_after", orNothing(strobe.balls_after)) +
+         dataBlock("times", strobe.times.empty() ? "NaN NaN \"\"\n" : strobe.times) +
+         dataBlock("ring", ring);
 }
 
 std::string captionOf(const LoggedThrow& thrown, const ThrowTimes& times, bool tracked) {
@@ -292,10 +233,10 @@ std::string captionOf(const LoggedThrow& thrown, const ThrowTimes& times, bool t
   caption += " In the net's face: ring and, dashed, the ring for the whole ball";
   if (thrown.isMeasured())
     caption += fmt::format(
-        "; cross: the landing measured, ({:+.2f}, {:+.2f}) mm, with its 95 % ellipse",
+        "; orange: the landing measured, ({:+.2f}, {:+.2f}) mm, with its 95 % ellipse",
         1e3 * thrown.record.landing->landing[0], 1e3 * thrown.record.landing->landing[1]);
   if (thrown.truth.landing)
-    caption += fmt::format("; circle: the true one, ({:+.2f}, {:+.2f}) mm",
+    caption += fmt::format("; black cross: the true one, ({:+.2f}, {:+.2f}) mm",
                            1e3 * thrown.truth.landing->x(), 1e3 * thrown.truth.landing->y());
   return caption + ".";
 }
@@ -323,8 +264,10 @@ std::string drawThrow(const LoggedThrow& thrown,
   strobe.box =
       Eigen::AlignedBox3d(strobe.box.min().array() - room, strobe.box.max().array() + room);
   const Sheet sheet(strobe.box);
+  const FacePanels faces =
+      facePanels(thrown, target, experiment.ball.radius, sheet.facePanel(0), sheet.facePanel(1));
   drawPicture(
-      path_stem, kWidth, sheet.height(), blocksOf(thrown, strobe, ring),
+      path_stem, kWidth, sheet.height(), blocksOf(strobe, ring) + faces.data,
       kStyle +
           fmt::format(
               "set termoption noenhanced\nset multiplot\nset key off\n"
@@ -332,10 +275,9 @@ std::string drawThrow(const LoggedThrow& thrown,
               "{}set title 'Side view' offset 0,-0.6\nset ylabel 'up (m)' offset 1.2,0\n"
               "set xtics 0.5; set ytics 0.2\n{}, $times u 1:2:3 w labels offset 0,1.6 font ',10'\n"
               "{}set title 'Seen from above' offset 0,-0.6\nset ylabel 'left (m)' offset 1.2,0\n"
-              "set xtics 1; set ytics 0.5\n{}\n{}unset multiplot\n",
+              "set xtics 0.5; set ytics 0.5\n{}\n{}unset multiplot\n",
               sheet.sidePanel(), strobePlot(3, experiment.ball.radius), sheet.abovePanel(),
-              strobePlot(2, experiment.ball.radius),
-              facePlots(thrown, sheet, 1e3 * target.radius, 1e3 * experiment.ball.radius)));
+              strobePlot(2, experiment.ball.radius), faces.commands));
   return captionOf(thrown, times, tracked);
 }
 

@@ -116,7 +116,7 @@ Html throwTable(const LoggedRun& run, const config::Experiment& experiment) {
        {"residual (px)"},
        {"hit", false},
        {"clean", false},
-       {"note", false}},
+       {"note", false, true}},
       rows);
 }
 

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "launch/figures/style.h"
 #include "launch/gnuplot.h"
 
 namespace fastball::launch {
@@ -50,15 +51,17 @@ ThrowTimes timesOf(const ThrowRecord& record) {
 std::string momentLine(int number,
                        const std::optional<double>& t,
                        double scale,
-                       const char* colour,
-                       const std::string& words) {
+                       const std::string& words,
+                       WordsAt side) {
   if (!t)
     return fmt::format("unset arrow {0}; unset label {0}\n", number);
+  const char* alignment = side == WordsAt::kLeft     ? "right offset 0.3,0.6"
+                          : side == WordsAt::kMiddle ? "center offset 0,0.6"
+                                                     : "left offset -0.3,0.6";
   return fmt::format(
       "set arrow {0} from {1:.5f}, graph 0 to {1:.5f}, graph 1 nohead lw 1.5 lc rgb {2} back\n"
-      "set label {0} {3} at {1:.5f}, graph 1 right rotate by 90 offset -0.7,-0.4 tc rgb {2} font "
-      "',10'\n",
-      number, scale * *t, colour, quoted(words));
+      "set label {0} {3} at {1:.5f}, graph 1 {4} tc rgb {2} font ',10'\n",
+      number, scale * *t, kGrey, quoted(words), alignment);
 }
 
 }  // namespace fastball::launch

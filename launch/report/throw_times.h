@@ -24,12 +24,15 @@ struct ThrowTimes {
 /// @throw std::runtime_error if the throw has no state of arm or hand, no plan and no release.
 ThrowTimes timesOf(const ThrowRecord& record);
 
-/// gnuplot: a line across the panel at a moment, if there is one, with words beside it at its upper end.
+/// On which side of its line the words of a moment stand.
+enum class WordsAt { kLeft, kMiddle, kRight };
+
+/// gnuplot: a line across the panel at a moment, if there is one, with words above the panel.
 /// @param number of the arrow and the label. @param scale of the axis: 1 for seconds, 1000 for milliseconds.
 std::string momentLine(int number,
                        const std::optional<double>& t,
                        double scale,
-                       const char* colour,
-                       const std::string& words);
+                       const std::string& words,
+                       WordsAt side);
 
 }  // namespace fastball::launch
