@@ -80,9 +80,9 @@ figcaption { font-size: .85rem; line-height: 1.4; color: var(--soft); margin-top
   thead { display: table-header-group; }
   tr, figure, .missing { break-inside: avoid; }
   .wide { overflow: visible; margin: 5pt 0 8pt; }
-  figure { margin: 5pt 0 7pt; }
+  figure { margin: 3pt 0 5pt; }
   figure img { filter: none; border-radius: 0; max-height: 240mm; object-fit: contain; object-position: left top; }
-  figcaption { font-size: 8pt; }
+  figcaption { font-size: 8pt; line-height: 1.3; margin-top: 2pt; }
   .newpage { break-before: page; }
 }
 )css";

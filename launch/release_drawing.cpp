@@ -21,9 +21,9 @@ using model::Finger, model::kFingerA, model::kFingerB, model::kThumb;
 constexpr double kStrobe = 0.1;   ///< [s], between two poses of the whole throw
 constexpr double kFrame = 0.002;  ///< [s], between two frames of the release
 constexpr int kFramesInRow = 10, kRows = 4;
-constexpr double kFrameSize = 0.275;          ///< [m], seen in a frame
-constexpr double kFramePitch = 0.0977;        ///< of the picture's width
-constexpr int kWidth = 1500, kHeight = 1040;  ///< [px]
+constexpr double kFrameSize = 0.275;         ///< [m], seen in a frame
+constexpr double kFramePitch = 0.0977;       ///< of the picture's width
+constexpr int kWidth = 1200, kHeight = 852;  ///< [px]
 constexpr Finger kFingerOrder[] = {kFingerA, kThumb, kFingerB};
 constexpr const char* kFingerNames[] = {"finger A", "the thumb", "finger B"};
 constexpr const char* kFingerColours[] = {"'#0072B2'", "'#D55E00'", "'#56B4E9'"};
@@ -104,7 +104,7 @@ std::string framePanel(int i, double t, double t_command, const std::string& plo
   };
   const bool is_command = first_from(t_command), is_departure = first_from(0);
   const double left = 0.012 + kFramePitch * (i % kFramesInRow),
-               top = 0.575 - kFramePitch * kWidth / kHeight * (i / kFramesInRow);
+               top = 0.568 - kFramePitch * kWidth / kHeight * (i / kFramesInRow);
   constexpr double kShown = kFramePitch - 0.003;
   return fmt::format(
       "set lmargin at screen {:.4f}; set rmargin at screen {:.4f}\n"
@@ -119,7 +119,7 @@ std::string framePanel(int i, double t, double t_command, const std::string& plo
                      : "'#b0b0b0'",
       signedMs(t),
       is_command     ? ": let go"
-      : is_departure ? ": ball leaves"
+      : is_departure ? ": leaves"
                      : "",
       plot);
 }
@@ -132,7 +132,7 @@ std::string framePanels(const ReleaseSequence& sequence,
       "unset arrow; unset label; set size noratio\n"
       "set label 2 'Around the release, every {2:.0f} ms, the place where the hand holds the ball "
       "in the "
-      "middle; orange: the thumb, blue: the fingers behind the ball' at screen 0.012,0.588 font "
+      "middle; orange: the thumb, blue: the fingers behind the ball' at screen 0.012,0.582 font "
       "',12'\n"
       "set xrange [{0}:{1}]; set yrange [{0}:{1}]\n",
       -kFrameSize / 2, kFrameSize / 2, 1e3 * kFrame);
@@ -162,7 +162,7 @@ std::string gapPanel(const ReleaseSequence& sequence, double t_first) {
   }
   return fmt::format(
       "set lmargin at screen 0.665; set rmargin at screen 0.985\n"
-      "set bmargin at screen 0.645; set tmargin at screen 0.915\n"
+      "set bmargin at screen 0.668; set tmargin at screen 0.915\n"
       "set title 'From the ball to each finger' font ',12'\n"
       "set xlabel 'time from the departure (ms)' offset 0,0.5\n"
       "set ylabel 'distance (mm)' offset 1,0\n"
@@ -196,7 +196,7 @@ std::string ranges(const std::vector<Eigen::Vector2d>& points, double shape) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : points)
     box.extend(p);
-  constexpr double kRoom = 0.15;  // [m], for what is about the points
+  constexpr double kRoom = 0.2;  // [m], for what is about the points
   const Eigen::Vector2d centre = box.center(),
                         needed = box.sizes() / 2 + Eigen::Vector2d(kRoom, kRoom);
   const double y = std::max(needed.y(), needed.x() / shape);
@@ -224,15 +224,15 @@ std::string strobePanel(const std::vector<const HandAndBall*>& ticks,
                           signedMs(ticks[i]->t), p.x(), p.y());
   }
   return fmt::format(
-      "set lmargin at screen 0.045; set rmargin at screen 0.615\n"
-      "set bmargin at screen 0.645; set tmargin at screen 0.915\n"
+      "set lmargin at screen 0.058; set rmargin at screen 0.615\n"
+      "set bmargin at screen 0.668; set tmargin at screen 0.915\n"
       "set title 'The whole throw every {:.0f} ms (times in ms from the departure)' font ',12'\n"
       "set xlabel 'in the direction of the throw (m)' offset 0,0.5; set ylabel 'across it (m)' "
-      "offset 1.5,0\n"
+      "offset 1.2,0\n"
       "set size noratio\n{}{}"
       "plot $ballpath u 1:2 w l lw 1 dt 2 lc rgb {}, {}, $ring u 1:2 w l lw 5 lc rgb '#222222'\n"
       "unset label\n",
-      1e3 * kStrobe, labels, ranges(points, 0.57 * kWidth / (0.27 * kHeight)), kGrey,
+      1e3 * kStrobe, labels, ranges(points, 0.557 * kWidth / (0.247 * kHeight)), kGrey,
       outlinePlot("strobe", "", a_is_behind));
 }
 

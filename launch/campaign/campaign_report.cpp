@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "launch/campaign/campaign_drawing.h"
+#include "launch/campaign/campaign_page.h"
 #include "launch/campaign/error_table.h"
 
 namespace fastball::launch {
@@ -102,6 +103,7 @@ std::vector<std::string> writeCampaignReport(const std::string& folder, const st
   attempt("the throws by their number", drawThrowNumbers);
   writeText(casesCsv(results), output + "/cases.csv");
   writeText(markdown(results, pictures), output + "/report.md");
+  writeText(campaignPage(results, folder, pictures, failures), output + "/index.html");
   return failures;
 }
 

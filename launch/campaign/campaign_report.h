@@ -6,7 +6,7 @@
 namespace fastball::launch {
 
 /// Draws what a campaign's folder has recorded so far, also while it goes on: pictures (PNG, SVG) with their numbers (CSV), cases.csv, and
-/// report.md with a table of all cases, the pictures and the errors.
+/// a page, index.html, with a table of all cases, the pictures, the causes and the errors; and report.md, nearly the same for a repository.
 /// @param output folder, made if absent.
 /// @return one sentence for each picture that could not be drawn.
 /// @throw std::invalid_argument if there is no campaign or no throw.

@@ -27,24 +27,32 @@ std::string distributionOf(const YAML::Node& error) {
 
 }  // namespace
 
-std::string errorTable(const std::string& path) {
-  std::string table =
-      "| error | drawn for each | distribution | unit | reason |\n"
-      "| --- | --- | --- | --- | --- |\n";
+std::vector<ErrorLine> errorLines(const std::string& path) {
+  std::vector<ErrorLine> lines;
   try {
     const YAML::Node file = YAML::LoadFile(path);
     for (const char* part : {"set_up", "throw"}) {
       for (const auto& entry : file[part]) {
         const YAML::Node& error = entry.second;
-        table += fmt::format("| `{}` | {} | {} | {} | {} |\n", entry.first.as<std::string>(),
-                             part == std::string("set_up") ? "set-up" : part, distributionOf(error),
-                             error["unit"].as<std::string>("relative"),
-                             error["reason"].as<std::string>(""));
+        lines.push_back({entry.first.as<std::string>(),
+                         part == std::string("set_up") ? "set-up" : part, distributionOf(error),
+                         error["unit"].as<std::string>("relative"),
+                         error["reason"].as<std::string>("")});
       }
     }
   } catch (const YAML::Exception& e) {
     throw std::invalid_argument(fmt::format("{}: {}", path, e.what()));
   }
+  return lines;
+}
+
+std::string errorTable(const std::string& path) {
+  std::string table =
+      "| error | drawn for each | distribution | unit | reason |\n"
+      "| --- | --- | --- | --- | --- |\n";
+  for (const ErrorLine& error : errorLines(path))
+    table += fmt::format("| `{}` | {} | {} | {} | {} |\n", error.name, error.drawn_for,
+                         error.distribution, error.unit, error.reason);
   return table;
 }
 

@@ -69,11 +69,11 @@ std::string commandsOf(const std::vector<CameraResiduals>& cameras, const ThrowT
   return kStyle +
          fmt::format(
              "set multiplot\nset termoption noenhanced\nset xzeroaxis lw 1 lc rgb '#404040'\n"
-             "set tmargin at screen 0.88; set bmargin at screen 0.175; set xrange [0:*]\n"
+             "set tmargin at screen 0.87; set bmargin at screen 0.2; set xrange [0:*]\n"
              "set yrange [-{0:.4f}:{0:.4f}]; set xlabel {1} offset 0,0.4\n"
              "set lmargin at screen 0.085; set rmargin at screen 0.49\n"
              "set ylabel 'seen - fit, to the right (px)' offset 0.8,0\n"
-             "set key at screen 0.985,0.99 top right horizontal samplen 1 maxrows 1\n{2}\n"
+             "set key at screen 0.985,0.99 top right horizontal samplen 1 width 2 maxrows 1\n{2}\n"
              "set lmargin at screen 0.58; set rmargin at screen 0.985; set key off\n"
              "set ylabel 'seen - fit, down (px)' offset 0.8,0\n{3}\nunset multiplot\n",
              1.08 * farthest(cameras), quoted("time from " + times.of_origin + " (s)"), plots[0],
@@ -124,7 +124,7 @@ std::string drawResiduals(const LoggedThrow& thrown,
                            i + 1, residuals[i].table.rows.size(), residuals[i].rms());
   }
   writeCsv(allOf(residuals), path_stem + ".csv");
-  drawPicture(path_stem, 1000, 340, data, commandsOf(residuals, times));
+  drawPicture(path_stem, 1000, 284, data, commandsOf(residuals, times));
   if (record.landing)
     caption += fmt::format(" The tracker says {:.3f} px.", record.landing->residual_px);
   return caption;

@@ -38,6 +38,7 @@ std::string circles(double outer, double inner) {
 struct Marks {
   std::vector<Eigen::Vector2d> places;  ///< [mm]
   std::string data, plot;
+  std::string key;  ///< plot of what the signs mean
   /// Half the width [mm] of a square about centre() that holds them, the ellipse included.
   double reach = 0.5;
   Eigen::Vector2d centre() const { return (places.front() + places.back()) / 2; }
@@ -56,11 +57,15 @@ Marks marksOf(const LoggedThrow& thrown) {
     marks.data += dataBlock("ellipse", ellipse95(landing));
     marks.plot += fmt::format(
         ", $ellipse w l lw 2 lc rgb {0}, $measured w p pt 7 ps 0.9 lc rgb {0}", kColours[1]);
+    marks.key +=
+        fmt::format(", NaN w lp pt 7 ps 0.9 lw 2 lc rgb {} title 'landing measured, 95 % ellipse'",
+                    kColours[1]);
     ellipse = 1e3 * extent95(landing).maxCoeff();
   }
   if (thrown.truth.landing) {
     add("true", *thrown.truth.landing);
     marks.plot += ", $true w p pt 2 ps 1.2 lw 2 lc rgb '#000000'";
+    marks.key += ", NaN w p pt 2 ps 1.2 lw 2 lc rgb '#000000' title 'true landing'";
   }
   for (const Eigen::Vector2d& place : marks.places)
     marks.reach =
@@ -114,10 +119,10 @@ FacePanels facePanels(const LoggedThrow& thrown,
       "set xlabel 'right (mm)' offset 0,0.5; set ylabel 'up (mm)' offset 1.2,0\n"
       "set title 'The net, seen from the robot' offset 0,-0.6\n{}{}{}"
       "plot $rings index 0 w l lw 3 lc rgb '#222222', "
-      "$rings index 1 w l lw 1.5 dt 2 lc rgb '#222222'{}\nunset label 9\n",
+      "$rings index 1 w l lw 1.5 dt 2 lc rgb '#222222'{}{}\nunset label 9; set key off\n",
       whole, squareAxes({0, 0}, 1.25 * farthest),
       marks.places.empty() ? "set label 9 'no landing' at graph 0.5,0.5 center front\n" : "",
-      marks.plot);
+      marks.plot, marks.key);
   if (!marks.places.empty())
     panels.commands +=
         fmt::format("set title 'The landing, enlarged' offset 0,-0.6\n{}{}plot NaN{}\n", enlarged,

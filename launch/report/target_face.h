@@ -19,7 +19,7 @@ Eigen::Vector2d extent95(const landing_t& landing);
 struct FacePanels {
   std::string data, commands;
 };
-/// @param ball_radius [m]. @param whole, enlarged commands that set the margins of the panels.
+/// @param ball_radius [m]. @param whole, enlarged commands that set the margins of the panels; that of the first also where the key is.
 FacePanels facePanels(const LoggedThrow& thrown,
                       const model::Target& target,
                       double ball_radius,

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "launch/figures/style.h"
@@ -61,7 +62,8 @@ std::vector<Vector3d> centreLine(const model::Arm& arm,
 /// What is drawn, for gnuplot: coordinates of the throw's frame [m].
 struct Strobe {
   std::string arms_before, arms_after, balls_before, balls_after;
-  std::string times;  ///< of some balls, with words
+  std::string times;                  ///< of some balls, with words
+  std::optional<Vector3d> departure;  ///< of the ball
   Eigen::AlignedBox3d box;
 };
 
@@ -97,8 +99,11 @@ void addArms(const ThrowRecord& record,
       continue;
     next += kStrobe * std::ceil((t + 2 * kHalfTick - next) / kStrobe);
     const bool is_before = t <= kHalfTick;
-    addArm(centreLine(arm, Eigen::Map<const Eigen::Vector4d>(state.q), experiment.hand.p_HBall),
-           frame, is_before, is_before, strobe);
+    const auto centre_line =
+        centreLine(arm, Eigen::Map<const Eigen::Vector4d>(state.q), experiment.hand.p_HBall);
+    if (times.departure && std::abs(t) <= kHalfTick)
+      strobe.departure = frame.of(centre_line.back());
+    addArm(centre_line, frame, is_before, is_before, strobe);
   }
 }
 
@@ -177,6 +182,12 @@ class Sheet {
                    kFace);
   }
 
+  /// Below the view from above.
+  std::string key() const {
+    return fmt::format("set key at screen {:.5f},{:.5f} left bottom Left reverse vertical\n",
+                       0.3 * kLeft / kWidth, static_cast<double>(kBelow) / height());
+  }
+
  private:
   int lowerTop() const { return kTop + side_ + kLabels + 24; }
   std::string margins(int left, int top, int width, int height_of_panel) const {
@@ -212,6 +223,14 @@ std::string strobePlot(int column, double radius) {
 
 std::string orNothing(const std::string& data) {
   return data.empty() ? "NaN NaN NaN\n" : data;
+}
+
+/// Beside the ball that leaves.
+std::string departureLabel(const Strobe& strobe, double radius) {
+  if (!strobe.departure)
+    return "";
+  return fmt::format("set label 1 'leaves the hand' at {:.4f},{:.4f} left font ',10'\n",
+                     strobe.departure->x() + 1.6 * radius, strobe.departure->z());
 }
 
 std::string blocksOf(const Strobe& strobe, const std::string& ring) {
@@ -264,20 +283,22 @@ std::string drawThrow(const LoggedThrow& thrown,
   strobe.box =
       Eigen::AlignedBox3d(strobe.box.min().array() - room, strobe.box.max().array() + room);
   const Sheet sheet(strobe.box);
-  const FacePanels faces =
-      facePanels(thrown, target, experiment.ball.radius, sheet.facePanel(0), sheet.facePanel(1));
+  const FacePanels faces = facePanels(thrown, target, experiment.ball.radius,
+                                      sheet.facePanel(0) + sheet.key(), sheet.facePanel(1));
   drawPicture(
       path_stem, kWidth, sheet.height(), blocksOf(strobe, ring) + faces.data,
       kStyle +
-          fmt::format(
-              "set termoption noenhanced\nset multiplot\nset key off\n"
-              "set xlabel 'towards the net (m)' offset 0,0.5\n"
-              "{}set title 'Side view' offset 0,-0.6\nset ylabel 'up (m)' offset 1.2,0\n"
-              "set xtics 0.5; set ytics 0.2\n{}, $times u 1:2:3 w labels offset 0,1.6 font ',10'\n"
-              "{}set title 'Seen from above' offset 0,-0.6\nset ylabel 'left (m)' offset 1.2,0\n"
-              "set xtics 0.5; set ytics 0.5\n{}\n{}unset multiplot\n",
-              sheet.sidePanel(), strobePlot(3, experiment.ball.radius), sheet.abovePanel(),
-              strobePlot(2, experiment.ball.radius), faces.commands));
+          fmt::format("set termoption noenhanced\nset multiplot\nset key off\n"
+                      "set xlabel 'towards the net (m)' offset 0,0.5\n"
+                      "{}set title 'Side view' offset 0,-0.6\nset ylabel 'up (m)' offset 1.2,0\n"
+                      "set xtics 0.5; set ytics 0.2\n{}{}, $times u 1:2:3 w labels offset 0,1.6 "
+                      "font ',10'\n"
+                      "unset label 1\n{}set title 'Seen from above' offset 0,-0.6\nset ylabel "
+                      "'left (m)' offset 1.2,0\n"
+                      "set xtics 0.5; set ytics 0.5\n{}\n{}unset multiplot\n",
+                      sheet.sidePanel(), departureLabel(strobe, experiment.ball.radius),
+                      strobePlot(3, experiment.ball.radius), sheet.abovePanel(),
+                      strobePlot(2, experiment.ball.radius), faces.commands));
   return captionOf(thrown, times, tracked);
 }
 
