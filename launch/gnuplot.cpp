@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "launch/clean_text.h"
+
 namespace fastball::launch {
 namespace {
 
@@ -29,10 +31,9 @@ std::string dataBlock(const std::string& name, const std::string& data) {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
+  for (const char c : cleanText(text)) {
     // A line feed would end the string, and what follows would be a command.
-    const bool is_control = (c >= 0 && c < ' ') || c == 0x7F;
-    result += is_control ? ' ' : c;
+    result += c == '\n' || c == '\t' ? ' ' : c;
     if (c == '\'')
       result += c;
   }

@@ -7,8 +7,7 @@ namespace fastball::launch {
 /// A named block of data for gnuplot; `data` ends with a line feed.
 std::string dataBlock(const std::string& name, const std::string& data);
 
-/// `text` as a string of gnuplot that means just these characters, quotes included; control characters become blanks, so that no
-/// text can end the string.
+/// `text` as a string of gnuplot that means just these characters, quotes included, on one line. No text can end the string.
 std::string quoted(const std::string& text);
 
 /// Draws `commands` twice: as path_stem.png and path_stem.svg, of width x height pixels, letters equally

@@ -1,33 +1,9 @@
 #include "launch/html.h"
 
-#include <boost/locale/utf.hpp>
+#include "launch/clean_text.h"
 
 namespace fastball::launch {
 namespace {
-
-using Utf8 = boost::locale::utf::utf_traits<char>;
-constexpr const char* kNoCharacter = "\xEF\xBF\xBD";  // U+FFFD
-
-/// How a character that is more than itself is written; null: as it is.
-const char* nameOf(boost::locale::utf::code_point c) {
-  switch (c) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&#39;";
-    case '\n':
-    case '\t':
-      return nullptr;
-    default:
-      return c < 0x20 || (c >= 0x7F && c < 0xA0) ? kNoCharacter : nullptr;
-  }
-}
 
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; --ink: #1a1a1a; --soft: #5c5c5c; --line: #d4d4d4; --back: #ffffff; --band: #f4f5f7;
@@ -54,7 +30,8 @@ th { background: var(--band); font-weight: 600; }
 thead th { vertical-align: bottom; }
 th.n, td.n { text-align: right; }
 td.n { white-space: nowrap; }
-td.p { overflow-wrap: anywhere; min-width: 7rem; }
+td code { overflow-wrap: normal; }
+td.p, td.p code { overflow-wrap: anywhere; min-width: 6rem; }
 .wide { overflow-x: auto; margin: .8rem 0 1.2rem; }
 code { font: .92em "DejaVu Sans Mono", ui-monospace, monospace; overflow-wrap: anywhere; }
 figure { margin: 1rem 0 1.4rem; }
@@ -91,14 +68,26 @@ figcaption { font-size: .85rem; line-height: 1.4; color: var(--soft); margin-top
 
 Html escaped(const std::string& text) {
   std::string code;
-  for (auto at = text.begin(); at != text.end();) {
-    const auto first = at;
-    const auto c = Utf8::decode(at, text.end());
-    const char* name = boost::locale::utf::is_valid_codepoint(c) ? nameOf(c) : kNoCharacter;
-    if (name == nullptr)
-      code.append(first, at);
-    else
-      code += name;
+  for (const char c : cleanText(text)) {
+    switch (c) {
+      case '&':
+        code += "&amp;";
+        break;
+      case '<':
+        code += "&lt;";
+        break;
+      case '>':
+        code += "&gt;";
+        break;
+      case '"':
+        code += "&quot;";
+        break;
+      case '\'':
+        code += "&#39;";
+        break;
+      default:
+        code += c;
+    }
   }
   return {code};
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include "launch/campaign/campaign_drawing.h"
 #include "launch/campaign/campaign_page.h"
@@ -59,8 +60,13 @@ std::string caseTable(const CampaignResults& results) {
 /// The errors with nothing varied.
 std::string errorsOf(const Campaign& campaign) {
   const std::string& path = campaign.cases.front().uncertainty;
-  return path.empty() ? "No errors were injected.\n"
-                      : fmt::format("From `{}`.\n\n{}", path, errorTable(path));
+  if (path.empty())
+    return "No errors were injected.\n";
+  try {
+    return fmt::format("From `{}`.\n\n{}", path, errorTable(path));
+  } catch (const std::invalid_argument& e) {
+    return fmt::format("They are not known any more: {}.\n", e.what());
+  }
 }
 
 std::string markdown(const CampaignResults& results, const std::vector<std::string>& pictures) {

@@ -94,7 +94,7 @@ Html factTable(const std::vector<std::pair<std::string, Html>>& facts) {
   Html table{"<div class=\"wide\"><table>\n"};
   for (const auto& [name, value] : facts) {
     if (!value.code.empty())
-      table += html("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
+      table += html("<tr><th scope=\"row\">{}</th><td class=\"p\">{}</td></tr>\n", name, value);
   }
   table += {"</table></div>\n"};
   return table;

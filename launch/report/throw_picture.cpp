@@ -206,23 +206,27 @@ class Sheet {
   int side_ = 0, above_ = 0, above_width_ = 0, lower_ = 0;
 };
 
-/// gnuplot clauses of arms, balls and ring in the columns 1 and `column`.
-std::string strobePlot(int column, double radius) {
-  const auto balls = [&](const char* block, const char* colour) {
-    return fmt::format(
-        ", {} u 1:{}:({}) w circles fs transparent solid 0.35 border lc rgb {} lc rgb {}", block,
-        column, radius, colour, colour);
+/// gnuplot clauses of arms, balls and ring in the columns 1 and `column`; what is not there is left out.
+std::string strobePlot(const Strobe& strobe, int column, double radius) {
+  std::string plot = fmt::format("plot $ring u 1:{} w l lw 4 lc rgb '#222222'", column);
+  const auto add = [&](const std::string& data, const char* block, const char* colour,
+                       const std::string& style) {
+    if (!data.empty())
+      plot += fmt::format(", ${} u 1:{}{} lc rgb {}", block, column, style, colour);
   };
-  return fmt::format(
-             "plot $arms_before u 1:{0} w l lw 2 lc rgb {1}, $arms_after u 1:{0} w l lw 2 lc rgb "
-             "{2}",
-             column, kBefores, kAfters) +
-         balls("$balls_before", kBefores) + balls("$balls_after", kAfters) +
-         fmt::format(", $ring u 1:{} w l lw 4 lc rgb '#222222'", column);
+  const auto circles = [radius](const char* colour) {
+    return fmt::format(":({}) w circles fs transparent solid 0.35 border lc rgb {}", radius,
+                       colour);
+  };
+  add(strobe.arms_before, "arms_before", kBefores, " w l lw 2");
+  add(strobe.arms_after, "arms_after", kAfters, " w l lw 2");
+  add(strobe.balls_before, "balls_before", kBefores, circles(kBefores));
+  add(strobe.balls_after, "balls_after", kAfters, circles(kAfters));
+  return plot;
 }
 
-std::string orNothing(const std::string& data) {
-  return data.empty() ? "NaN NaN NaN\n" : data;
+std::string timeLabels(const Strobe& strobe) {
+  return strobe.times.empty() ? "" : ", $times u 1:2:3 w labels offset 0,1.6 font ',10'";
 }
 
 /// Beside the ball that leaves.
@@ -234,11 +238,9 @@ std::string departureLabel(const Strobe& strobe, double radius) {
 }
 
 std::string blocksOf(const Strobe& strobe, const std::string& ring) {
-  return dataBlock("arms_before", orNothing(strobe.arms_before)) +
-         dataBlock("arms_after", orNothing(strobe.arms_after)) +
-         dataBlock("balls_before", orNothing(strobe.balls_before)) +
-         dataBlock("balls_after", orNothing(strobe.balls_after)) +
-         dataBlock("times", strobe.times.empty() ? "NaN NaN \"\"\n" : strobe.times) +
+  return dataBlock("arms_before", strobe.arms_before) + dataBlock("arms_after", strobe.arms_after) +
+         dataBlock("balls_before", strobe.balls_before) +
+         dataBlock("balls_after", strobe.balls_after) + dataBlock("times", strobe.times) +
          dataBlock("ring", ring);
 }
 
@@ -285,20 +287,20 @@ std::string drawThrow(const LoggedThrow& thrown,
   const Sheet sheet(strobe.box);
   const FacePanels faces = facePanels(thrown, target, experiment.ball.radius,
                                       sheet.facePanel(0) + sheet.key(), sheet.facePanel(1));
+  const double radius = experiment.ball.radius;
   drawPicture(
       path_stem, kWidth, sheet.height(), blocksOf(strobe, ring) + faces.data,
       kStyle +
-          fmt::format("set termoption noenhanced\nset multiplot\nset key off\n"
-                      "set xlabel 'towards the net (m)' offset 0,0.5\n"
-                      "{}set title 'Side view' offset 0,-0.6\nset ylabel 'up (m)' offset 1.2,0\n"
-                      "set xtics 0.5; set ytics 0.2\n{}{}, $times u 1:2:3 w labels offset 0,1.6 "
-                      "font ',10'\n"
-                      "unset label 1\n{}set title 'Seen from above' offset 0,-0.6\nset ylabel "
-                      "'left (m)' offset 1.2,0\n"
-                      "set xtics 0.5; set ytics 0.5\n{}\n{}unset multiplot\n",
-                      sheet.sidePanel(), departureLabel(strobe, experiment.ball.radius),
-                      strobePlot(3, experiment.ball.radius), sheet.abovePanel(),
-                      strobePlot(2, experiment.ball.radius), faces.commands));
+          fmt::format(
+              "set termoption noenhanced\nset multiplot\nset key off\n"
+              "set xlabel 'towards the net (m)' offset 0,0.5; set xtics 0.5\n"
+              "{}set title 'Side view' offset 0,-0.6; set ylabel 'up (m)' offset 1.2,0\n"
+              "set ytics 0.2\n{}{}{}\nunset label 1\n"
+              "{}set title 'Seen from above' offset 0,-0.6; set ylabel 'left (m)' offset 1.2,0\n"
+              "set ytics 0.5\n{}\n{}unset multiplot\n",
+              sheet.sidePanel(), departureLabel(strobe, radius), strobePlot(strobe, 3, radius),
+              timeLabels(strobe), sheet.abovePanel(), strobePlot(strobe, 2, radius),
+              faces.commands));
   return captionOf(thrown, times, tracked);
 }
 

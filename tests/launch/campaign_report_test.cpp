@@ -62,6 +62,7 @@ class CampaignReport : public testing::Test {
     result.throws.emplace_back();
     return result;
   }
+  std::string page() const { return contents(out() + "/index.html"); }
   std::string in() const { return (folder_.path() / "in").string(); }
   std::string out() const { return (folder_.path() / "it's out").string(); }
   void expectPicture(const std::string& name) const {
@@ -70,6 +71,7 @@ class CampaignReport : public testing::Test {
     EXPECT_THAT(contents(out() + "/" + name + ".svg"), HasSubstr("</svg>"));
     EXPECT_THAT(contents(out() + "/" + name + ".csv"), Not(IsEmpty()));
     EXPECT_THAT(contents(out() + "/report.md"), HasSubstr("(" + name + ".svg)"));
+    EXPECT_THAT(page(), HasSubstr("<img src=\"./" + name + ".svg\""));
   }
   config::TemporaryFolder folder_;
 };
@@ -86,6 +88,18 @@ TEST_F(CampaignReport, OfStrategiesHasRatesLandingsAndThrowNumbers) {
   EXPECT_THAT(contents(out() + "/throw-numbers.csv"), HasSubstr("tactile,4,2,0.000,"));
   EXPECT_THAT(contents(out() + "/cases.csv"), HasSubstr("tactile,,10,6,60.000,"));
   EXPECT_THAT(contents(out() + "/report.md"), HasSubstr("| paper | 10 | 80.00 | 49.02 to 94.33 |"));
+  EXPECT_THAT(page(), HasSubstr("<td class=\"n\">80.00</td><td class=\"n\">49.02 to 94.33</td>"));
+  EXPECT_THAT(page(), HasSubstr("Hits with nothing varied: paper 80.0 % (49.0 to 94.3); robust "));
+  EXPECT_THAT(page(), HasSubstr("<code>grasp_offset</code>")) << "the errors";
+  EXPECT_THAT(page(), Not(HasSubstr("What is missing")));
+}
+
+TEST_F(CampaignReport, ShowsAnyNameAsText) {
+  Case hostile = caseOf("<script>\n", "");
+  begin({caseOf("paper", ""), hostile});
+  EXPECT_THAT(writeCampaignReport(in(), out()), IsEmpty());
+  EXPECT_THAT(page(), Not(HasSubstr("<script")));
+  EXPECT_THAT(page(), HasSubstr("&lt;script&gt;"));
 }
 
 TEST_F(CampaignReport, OfAnOrderedStudyHasItsCurves) {
@@ -121,6 +135,7 @@ TEST_F(CampaignReport, OfCausesPutsTheDearestFirst) {
   EXPECT_LT(csv.find("friction,10,80.000,49.016,94.332,20.000,"),
             csv.find("drag,10,60.000,31.267,83.182,0.000,"))
       << csv;
+  EXPECT_THAT(page(), HasSubstr("<td class=\"p\">friction</td><td class=\"n\">+20.00</td>"));
 }
 
 TEST_F(CampaignReport, OfAnUnfinishedCampaignCountsWhatThereIs) {
@@ -135,6 +150,7 @@ TEST_F(CampaignReport, OfAnUnfinishedCampaignCountsWhatThereIs) {
   EXPECT_THAT(writeCampaignReport(in(), out()), IsEmpty());
   EXPECT_THAT(contents(out() + "/report.md"), HasSubstr("5 of 200 throws"));
   EXPECT_THAT(contents(out() + "/report.md"), HasSubstr("| robust | 0 |"));
+  EXPECT_THAT(page(), HasSubstr("The campaign is not finished: 5 of 200 throws are made."));
 }
 
 TEST_F(CampaignReport, NeedsACampaign) {
