@@ -62,7 +62,7 @@ std::string commandsOf(const ThrowTimes& times) {
          fmt::format(
              "set multiplot\nset termoption noenhanced\nset xrange [{0}:{1}]; set yrange [0:*]\n"
              "set offsets graph 0, graph 0, graph 0.05, graph 0\n"
-             "set tmargin at screen 0.9; set bmargin at screen 0.2\n{2}{3}{4}"
+             "set tmargin at screen 0.9; set bmargin at screen 0.21\n{2}{3}{4}"
              "set xlabel {5} offset 0,0.4\n"
              "set lmargin at screen 0.065; set rmargin at screen 0.49\n"
              "set ylabel 'normal force (N)' offset 1,0\n"
@@ -88,7 +88,7 @@ std::string drawFingers(const LoggedThrow& thrown, const std::string& path_stem)
   if (table.rows.size() < 2)
     throw std::runtime_error("the log has no HAND_STATE around the release");
   writeCsv(table, path_stem + ".csv");
-  drawPicture(path_stem, 1000, 284, dataBlock("f", plotData(table)), commandsOf(times));
+  drawPicture(path_stem, 1000, 270, dataBlock("f", plotData(table)), commandsOf(times));
   std::string caption = "Forces of the fingers on the ball, as they feel them.";
   if (times.window[0])
     caption += " Shaded: the time in which the ball may leave, by the plan.";

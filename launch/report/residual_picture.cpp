@@ -117,16 +117,20 @@ std::string drawResiduals(const LoggedThrow& thrown,
   }
   if (residuals.empty())
     throw std::runtime_error("no BALL_OBSERVATION belongs to a camera of CAMERA_INFO");
-  std::string data, caption = "Centre of the ball in each image less that of the last BALL_TRACK.";
+  std::string data, caption =
+                        "Centre of the ball in each image less that of the last BALL_TRACK, also "
+                        "where the tracker left "
+                        "the image out as too far off.";
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     data += dataBlock(fmt::format("c{}", i), plotData(residuals[i].table));
     caption += fmt::format(" {} (camera {}): {} images, rms {:.3f} px.", residuals[i].channel,
                            i + 1, residuals[i].table.rows.size(), residuals[i].rms());
   }
   writeCsv(allOf(residuals), path_stem + ".csv");
-  drawPicture(path_stem, 1000, 284, data, commandsOf(residuals, times));
+  drawPicture(path_stem, 1000, 270, data, commandsOf(residuals, times));
   if (record.landing)
-    caption += fmt::format(" The tracker says {:.3f} px.", record.landing->residual_px);
+    caption +=
+        fmt::format(" The tracker says {:.3f} px of those it used.", record.landing->residual_px);
   return caption;
 }
 
