@@ -59,6 +59,7 @@ figcaption { font-size: .85rem; line-height: 1.4; color: var(--soft); margin-top
   .wide { overflow: visible; margin: 5pt 0 8pt; }
   figure { margin: 3pt 0 5pt; }
   figure img { filter: none; border-radius: 0; max-height: 240mm; object-fit: contain; object-position: left top; }
+  figure[id^="release-"] img { max-height: 121mm; } /* a throw on two pages */
   figcaption { font-size: 8pt; line-height: 1.3; margin-top: 2pt; }
   .newpage { break-before: page; }
 }

@@ -129,6 +129,12 @@ JudgedThrow judgedThrow(int64_t number,
   return judged;
 }
 
+bool isDecided(const LoggedThrow& thrown) {
+  if (thrown.hasTruth())
+    return thrown.truth.landing || thrown.truth.finished;
+  return thrown.record.landing.has_value();
+}
+
 std::optional<Eigen::Vector2d> decidingLanding(const LoggedThrow& thrown) {
   if (thrown.hasTruth())
     return thrown.truth.landing;

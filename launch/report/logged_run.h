@@ -56,6 +56,9 @@ JudgedThrow judgedThrow(int64_t number,
                         const LoggedThrow& thrown,
                         const config::Experiment& experiment);
 
+/// Whether the log tells how the throw ended: not that of one which was cut off.
+bool isDecided(const LoggedThrow& thrown);
+
 /// The landing by which a throw is judged [m]: the true one, or where the log has no truth the measured one; or nothing.
 std::optional<Eigen::Vector2d> decidingLanding(const LoggedThrow& thrown);
 

@@ -41,21 +41,27 @@ std::string strategiesOf(const LoggedRun& run) {
   });
 }
 
-/// "10 of 10 in the net (95 % interval 72.2 to 100.0 %), 10 of them clean"
+/// "10 of 10 in the net (95 % interval by Wilson: 72.2 to 100.0 %), 10 clean"
 std::string hitWords(const LoggedRun& run, const config::Experiment& experiment) {
   Rate hits;
   int cleans = 0;
   bool any_truth = false;
   for (const auto& [number, thrown] : run.throws) {
+    if (!isDecided(thrown))
+      continue;
     ++hits.of;
     hits.count += judgedThrow(number, thrown, experiment).hit;
     cleans += isClean(thrown, experiment);
     any_truth = any_truth || thrown.hasTruth();
   }
+  const auto unknown = static_cast<int>(run.throws.size()) - hits.of;
+  const std::string rest = unknown > 0 ? fmt::format("; of {} the log does not tell", unknown) : "";
+  if (hits.of == 0)
+    return "the log does not tell where they landed";
   return fmt::format(
-      "{} of {} in the net{} (95 % interval by Wilson: {:.1f} to {:.1f} %), {} clean", hits.count,
+      "{} of {} in the net{} (95 % interval by Wilson: {:.1f} to {:.1f} %), {} clean{}", hits.count,
       hits.of, any_truth ? "" : " by what was measured", 100 * hits.low(), 100 * hits.high(),
-      cleans);
+      cleans, rest);
 }
 
 Html head(const LoggedRun& run, const config::Experiment& experiment) {
@@ -69,10 +75,10 @@ Html head(const LoggedRun& run, const config::Experiment& experiment) {
 }
 
 Html navigation(const LoggedRun& run) {
-  Html text{"<nav><a href=\"#run\">What ran</a><a href=\"#net\">Landings</a>"};
+  Html text{"<nav><a href=\"#net\">Landings</a>\n<a href=\"#run\">What ran</a>"};
   for (const auto& [number, thrown] : run.throws)
-    text += html("<a href=\"#t{0}\">Throw {0}</a>", number);
-  text += {"<a href=\"#loops-and-losses\">Loops and losses</a></nav>\n"};
+    text += html("\n<a href=\"#t{0}\">Throw {0}</a>", number);
+  text += {"\n<a href=\"#loops-and-losses\">Loops and losses</a></nav>\n"};
   return text;
 }
 
@@ -259,7 +265,8 @@ std::string throwsCsv(const LoggedRun& run, const config::Experiment& experiment
     csv += thrown.truth.landing ? fmt::format(",{:.3f},{:.3f}", 1e3 * thrown.truth.landing->x(),
                                               1e3 * thrown.truth.landing->y())
                                 : ",,";
-    csv += fmt::format(",{:d},{:d}\n", judged.hit, isClean(thrown, experiment));
+    csv += isDecided(thrown) ? fmt::format(",{:d},{:d}\n", judged.hit, isClean(thrown, experiment))
+                             : ",,\n";
   }
   return csv;
 }

@@ -19,8 +19,8 @@ Html pairOf(const Eigen::Vector2d& v, bool is_signed) {
                     : fmt::format("{:.2f}, {:.2f}", 1e3 * v.x(), 1e3 * v.y())};
 }
 
-Html yesOrNo(bool yes) {
-  return {yes ? "yes" : "no"};
+Html verdict(const LoggedThrow& thrown, bool yes) {
+  return {!isDecided(thrown) ? "unknown" : yes ? "yes" : "no"};
 }
 
 /// The true release in simulated time, or else the departure that the hand felt.
@@ -63,12 +63,12 @@ std::vector<Html> throwRow(int64_t throw_number,
                         speed ? number(*speed, 2) : Html{}, release, late};
   row.push_back(judged.seen.measured ? pairOf(judged.seen.landing, true) : Html{"not measured"});
   row.push_back(judged.seen.measured ? pairOf(judged.seen.landing_sigma, false) : Html{});
-  row.push_back(thrown.truth.landing ? pairOf(*thrown.truth.landing, true)
-                : thrown.hasTruth()  ? Html{"never crossed"}
-                                     : Html{});
+  row.push_back(thrown.truth.landing    ? pairOf(*thrown.truth.landing, true)
+                : thrown.truth.finished ? Html{"never crossed"}
+                                        : Html{});
   row.push_back(thrown.record.landing ? number(thrown.record.landing->residual_px, 3) : Html{});
-  row.push_back(yesOrNo(judged.hit));
-  row.push_back(yesOrNo(isClean(thrown, experiment)));
+  row.push_back(verdict(thrown, judged.hit));
+  row.push_back(verdict(thrown, isClean(thrown, experiment)));
   row.push_back(escaped(judged.seen.note));
   return row;
 }
@@ -78,10 +78,12 @@ Html factsOf(int64_t throw_number,
              const LoggedThrow& thrown,
              const config::Experiment& experiment) {
   const JudgedThrow judged = judgedThrow(throw_number, thrown, experiment);
-  std::string facts = judged.hit ? "In the net" : "Not in the net";
+  std::string facts = !isDecided(thrown) ? "The log does not tell where it landed"
+                      : judged.hit       ? "In the net"
+                                         : "Not in the net";
   if (judged.hit && isClean(thrown, experiment))
     facts += ", the whole ball";
-  facts += thrown.hasTruth() ? "." : ", by what was measured.";
+  facts += thrown.hasTruth() || !isDecided(thrown) ? "." : ", by what was measured.";
   if (thrown.record.plan && thrown.record.plan->status == swing_plan_t::REFUSED)
     facts += " The planner refused: " + thrown.record.plan->message + ".";
   else if (thrown.record.plan)
