@@ -25,6 +25,7 @@ void addCampaignCommand(CLI::App& app, int& exit_status);
 void addManualCommand(CLI::App& app, int& exit_status);
 void addDocsCommand(CLI::App& app, int& exit_status);
 void addSpyCommand(CLI::App& app, int& exit_status);
+void addViewCommand(CLI::App& app, int& exit_status);
 /// up, down, ps, hold
 void addSystemCommands(CLI::App& app, int& exit_status);
 

@@ -27,6 +27,7 @@ int fastballMain(int argc, char** argv) {
   fastball::launch::addCampaignCommand(app, exit_status);
   fastball::launch::addSystemCommands(app, exit_status);
   fastball::launch::addDoctorCommand(app, exit_status);
+  fastball::launch::addViewCommand(app, exit_status);
   fastball::launch::addSpyCommand(app, exit_status);
   fastball::launch::addLogCommand(app, exit_status);
   fastball::launch::addReplayCommand(app, exit_status);

@@ -55,6 +55,8 @@ class LogReader {
   /// Where the next record is expected [bytes].
   int64_t offset() const { return offset_; }
   void rewind();
+  /// Goes on with the record at `offset` [bytes], where offset() was before that record was read. Damages found stay counted.
+  void seek(int64_t offset) { offset_ = offset; }
 
  private:
   bool headerAt(int64_t offset, RecordHeader& header, std::string& channel);

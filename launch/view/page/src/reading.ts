@@ -1,0 +1,51 @@
+// What goes on at the time that is shown, in a few words over the 3-D view; and what is missing.
+
+import { ballAt } from './ball';
+import { armPhases, handPhases, type Throw } from './messages';
+import { element, make, setText, signed } from './page';
+import type { Record } from './record';
+
+const ballWords = { held: 'ball in the hand', measured: 'ball measured', planned: 'ball as planned, not seen', landed: 'ball landed' };
+
+function untilRelease(thrown: Throw, t: number): string {
+  const release = thrown.departed ?? thrown.plannedRelease;
+  return release === null ? '' : `${signed(t - release, 3)} s ${thrown.departed === null ? 'from the planned release' : 'from the release'}`;
+}
+
+export class Reading {
+  private readonly place = element('reading');
+  private readonly lines = [make('strong'), make('span'), make('span'), make('span')];
+  private readonly notices = element('notices');
+  private told = '';
+
+  constructor() {
+    this.place.append(...this.lines);
+  }
+
+  show(record: Record, t: number): void {
+    const thrown = record.throwAt(t);
+    const i = record.samples.at(t);
+    const phase = (where: number, names: string[]): string =>
+      i < 0 ? '' : (names[Math.round(record.samples.value(i, where))] ?? '');
+    const { layout } = record.hello;
+    const arm = phase(layout.armPhase, armPhases);
+    const hand = phase(layout.handPhase, handPhases);
+    const ball = ballAt(record, t);
+    setText(this.lines[0]!, thrown ? `Throw ${thrown.number}` : '');
+    setText(this.lines[1]!, thrown ? untilRelease(thrown, t) : '');
+    setText(this.lines[2]!, [arm && `arm: ${arm}`, hand && `hand: ${hand}`].filter(Boolean).join(', '));
+    setText(this.lines[3]!, ball ? ballWords[ball.kind] : '');
+  }
+
+  tell(record: Record): void {
+    const sentences = [...record.notices];
+    if (record.run && !record.run.goesOn && record.run.words) sentences.push(record.run.words);
+    if (record.run?.goesOn && record.samples.count === 0) sentences.unshift('The processes are starting.');
+    for (const thrown of record.throws) if (thrown.note) sentences.push(`Throw ${thrown.number}: ${thrown.note}`);
+    if (record.skipped > 0) sentences.push(`This page was too slow for ${record.skipped} states, which it does not show.`);
+    const key = JSON.stringify(sentences);
+    if (key === this.told) return;
+    this.told = key;
+    this.notices.replaceChildren(...sentences.map((sentence) => make('li', {}, sentence)));
+  }
+}

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+
+#include "launch/view/page_files.h"
+#include "lcmtypes/fastball_types.h"
+
+namespace fastball::view {
+
+/// An image as a file that a browser can show: a JPEG as it is, grey values as PNG. Nothing if it is neither, or if its size is not
+/// that of its rows.
+std::optional<PageFiles::File> pictureFile(const image_t& image);
+
+}  // namespace fastball::view
