@@ -114,6 +114,16 @@ std::optional<std::string> Processes::ended() {
   return std::nullopt;
 }
 
+int Processes::exitStatus(const std::string& name) {
+  for (auto& process : processes_) {
+    if (process->name != name || process->running())
+      continue;
+    const int status = process->child.native_exit_code();
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+  return -1;
+}
+
 std::string Processes::lastOutput(const std::string& name) const {
   std::string text;
   for (const auto& process : processes_) {

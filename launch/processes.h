@@ -33,6 +33,8 @@ class Processes {
   /// A sentence on a process that has ended by itself ("controller was ended by signal 9
   /// (Killed)"), or nothing.
   std::optional<std::string> ended();
+  /// Exit status of a process that has ended, 128 + the signal's number if one ended it; -1 if it runs or is none of these.
+  int exitStatus(const std::string& name);
   /// The last lines that the process wrote to stdout and stderr, each with "[name] " in front.
   std::string lastOutput(const std::string& name) const;
   /// Ends all processes but those named `last` by SIGINT, after `grace` [s] by SIGKILL; then, with

@@ -105,7 +105,11 @@ json hello(const Timeline& timeline, const config::Experiment& experiment, doubl
   for (const FigurePart& part : timeline.figure().parts())
     parts.push_back(
         {{"from", part.from}, {"to", part.to}, {"radius", part.radius}, {"hand", part.hand}});
+  json rest = json::array();
+  for (const Eigen::Vector3f& p : timeline.figure().points(experiment.q_rest, {}))
+    rest.push_back(toJson(p.cast<double>()));
   return {{"version", messaging::version()},
+          {"rest", rest},
           {"layout",
            {{"speed", kSpeed},
             {"torque", kTorque},

@@ -57,7 +57,7 @@ std::vector<std::string> absent(const Timeline& timeline,
 
 }  // namespace
 
-std::vector<std::string> missingFrom(const Timeline& log) {
+std::vector<std::string> missingFromLog(const Timeline& log) {
   return absent(log, "The log has no", true, true, true);
 }
 
@@ -67,12 +67,7 @@ bool experimentHeard(const Timeline& live, int64_t wall_us) {
   });
 }
 
-std::vector<std::string> missingFrom(const Timeline& live,
-                                     int64_t wall_us,
-                                     const std::string& lcm_url) {
-  if (!experimentHeard(live, wall_us))
-    return {fmt::format("No experiment is heard on {}. Start one: fastball run --lcm-url '{}'",
-                        lcm_url, lcm_url)};
+std::vector<std::string> missingFromNetwork(const Timeline& live) {
   const bool states = std::max(live.taken("ARM_STATE"), live.taken("HAND_STATE")) >= kEnoughStates;
   const bool landed =
       std::any_of(live.throws().begin(), live.throws().end(),

@@ -38,6 +38,7 @@ void ThrowRun::start(const ThrowOrder& order) {
   if (!place_.key.empty())
     command.arguments.insert(command.arguments.end(), {"--key", place_.key});
   words_.clear();
+  failed_ = false;
   processes_ = std::make_unique<launch::Processes>();
   processes_->start(command);
 }
@@ -51,10 +52,12 @@ bool ThrowRun::goesOn() {
   if (!processes_)
     return false;
   words_ = processes_->lastOutput(kName);
-  if (!processes_->ended())
+  const int status = processes_->exitStatus(kName);
+  if (status < 0)
     return true;
+  failed_ = status != 0;
   processes_.reset();
-  // A status line is for a terminal, and who says the lines is clear.
+  // Who says the lines is clear.
   words_ = std::regex_replace(words_, std::regex("\\[run\\] "), "");
   return false;
 }

@@ -40,6 +40,8 @@ class ThrowRun {
   /// Tells the run to end.
   void stop();
   bool goesOn();
+  /// True if the newest run has ended and has not made its throws.
+  bool failed() const { return failed_; }
   /// The last lines that the newest run has written.
   std::string words() const { return words_; }
 
@@ -47,6 +49,7 @@ class ThrowRun {
   RunPlace place_;
   std::unique_ptr<launch::Processes> processes_;
   std::string words_;
+  bool failed_ = false;
 };
 
 }  // namespace fastball::view

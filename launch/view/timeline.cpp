@@ -55,6 +55,7 @@ Timeline::Timeline(const config::Experiment& experiment, double floor, TimelineL
   know(messaging::kBallTrack, &Timeline::hear);
   know(messaging::kLanding, &Timeline::hear);
   know(messaging::kHeartbeat, &Timeline::hear);
+  know(messaging::kLoggerStatus, &Timeline::hear);
 }
 
 template <class T>

@@ -91,6 +91,8 @@ class Timeline {
   const std::map<std::string, Kept<Picture>>& pictures() const { return pictures_; }
   /// Of the newest change of a throw.
   int64_t serial() const { return serial_; }
+  /// The log that the experiment's logger writes, or empty.
+  const std::string& recordedIn() const { return recorded_in_; }
   const Figure& figure() const { return figure_; }
 
   struct Count {
@@ -119,6 +121,7 @@ class Timeline {
   void hear(const ball_track_t& track);
   void hear(const landing_t& landing);
   void hear(const heartbeat_t& heartbeat);
+  void hear(const logger_status_t& status) { recorded_in_ = status.path; }
   bool hearImage(const std::string& channel, const void* data, std::size_t size);
 
   /// Makes room for a state of `utime` in the sample that is being made. @return false if it has been said before.
@@ -159,6 +162,7 @@ class Timeline {
   std::map<std::string, Kept<Picture>> pictures_;
   std::map<std::string, std::size_t> picture_bytes_;
   int64_t serial_ = 0;
+  std::string recorded_in_;
 };
 
 }  // namespace fastball::view

@@ -118,22 +118,36 @@ void ViewServer::renewNews() {
   std::vector<std::string> notices;
   if (log_) {
     notices = log_->faults();
-    for (const std::string& sentence : missingFrom(timeline()))
+    for (const std::string& sentence : missingFromLog(timeline()))
       notices.push_back(sentence);
   } else {
-    notices = missingFrom(*live_, wall_us, options_.lcm_url);
+    notices = missingFromNetwork(*live_);
   }
   if (!options_.remark.empty())
     notices.insert(notices.begin(), options_.remark);
   news_ = {{"notices", notices}};
-  if (live_)
-    news_["heard"] = experimentHeard(*live_, wall_us);
+  if (live_) {
+    const bool heard = experimentHeard(*live_, wall_us);
+    news_["heard"] = heard;
+    news_["advice"] = heard ? "" : advice();
+    news_["recorded"] = live_->recordedIn();
+  }
   if (throw_run_) {
     const bool goes_on = throw_run_->goesOn();
     news_["run"] = {{"goesOn", goes_on},
+                    {"failed", throw_run_->failed() || !order_fault_.empty()},
                     {"words", order_fault_.empty() ? throw_run_->words() : order_fault_}};
   }
   news_text_ = text(news_);
+}
+
+/// What to do where nothing is heard.
+std::string ViewServer::advice() const {
+  const std::string url = options_.lcm_url == messaging::defaultLcmUrl()
+                              ? ""
+                              : fmt::format(" --lcm-url '{}'", options_.lcm_url);
+  return fmt::format("No experiment is heard. Start one{}: fastball run{}",
+                     throw_run_ ? " with Throw, above, or in a terminal" : "", url);
 }
 
 void ViewServer::obey(const json& order) {

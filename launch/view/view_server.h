@@ -51,6 +51,7 @@ class ViewServer {
   void tick(const std::function<bool()>& stopped);
   void tell(Viewer& viewer);
   void renewNews();
+  std::string advice() const;
   void obey(const nlohmann::json& order);
   void join(boost::beast::tcp_stream stream, const Viewer::Request& request);
   std::optional<PageFiles::File> picture(const std::string& channel, int64_t index);

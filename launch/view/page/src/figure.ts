@@ -41,6 +41,8 @@ export class Figure {
   readonly group = new THREE.Group();
   private readonly arm = new THREE.MeshStandardMaterial({ roughness: 0.55, metalness: 0.15 });
   private readonly hand = new THREE.MeshStandardMaterial({ roughness: 0.5, metalness: 0.1 });
+  private readonly armColour = new THREE.Color();
+  private readonly restColour = new THREE.Color();
   private readonly capsules: Capsule[];
   private readonly points: THREE.Vector3[] = [];
 
@@ -54,19 +56,20 @@ export class Figure {
   }
 
   recolour(): void {
-    this.arm.color.set(colour('--arm'));
+    this.armColour.set(colour('--arm'));
+    this.restColour.set(colour('--arm-rest'));
     this.hand.color.set(colour('--hand'));
   }
 
-  /** Poses the figure as it was at `t`; hides it before the first sample. */
+  /** Poses the figure as it was at `t`; before the first sample, pale and at rest. */
   pose(samples: Samples, t: number): void {
     const i = samples.at(t);
-    this.group.visible = i >= 0;
-    if (i < 0) return;
+    this.arm.color.copy(i < 0 ? this.restColour : this.armColour);
     const read = (where: number): number => samples.between(i, t, where);
     this.points.forEach((point, index) => {
       const where = this.hello.layout.points + 3 * index;
-      point.set(read(where), read(where + 1), read(where + 2));
+      if (i >= 0) point.set(read(where), read(where + 1), read(where + 2));
+      else point.set(...(this.hello.rest[index]!.map((x) => x ?? NaN) as [number, number, number]));
     });
     this.hello.parts.forEach((part, index) =>
       this.capsules[index]!.place(this.points[part.from]!, this.points[part.to]!),

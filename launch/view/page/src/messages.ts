@@ -38,6 +38,8 @@ export interface Hello {
   layout: Layout;
   parts: Part[];
   heldBall: number;
+  /** The points of the arm at rest; null: not known. */
+  rest: (Vector | [null, null, null])[];
   ballRadius: number;
   arm: string;
   speedLimits: number[];
@@ -111,6 +113,13 @@ export interface Pictures {
 /** Number of the throw, time, place, and 1 if it was measured. */
 export type TrackPoint = [number, number, number, number, number, number];
 
+/** A run that a page has started. */
+export interface Run {
+  goesOn: boolean;
+  failed: boolean;
+  words: string;
+}
+
 export interface FrameHeader {
   samples: number;
   now: number;
@@ -122,7 +131,9 @@ export interface FrameHeader {
   pictures?: Record<string, Pictures>;
   notices?: string[];
   heard?: boolean;
-  run?: { goesOn: boolean; words: string };
+  run?: Run;
+  recorded?: string;
+  advice?: string;
 }
 
 export interface Frame {

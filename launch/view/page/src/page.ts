@@ -16,9 +16,13 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+const written = new WeakMap<Element, string>();
+
 /** Writes only what has changed: to touch the page costs more than to compare. */
 export function setText(where: Element, text: string): void {
-  if (where.textContent !== text) where.textContent = text;
+  if (written.get(where) === text) return;
+  written.set(where, text);
+  where.textContent = text;
 }
 
 export function signed(value: number, digits: number): string {

@@ -9,7 +9,9 @@ import type { Record } from './record';
 
 const drawPeriod = 66; // ms: a plot that grows is drawn fifteen times a second
 const mostPoints = 700;
-const shownSpan = 3.4; // [s], a throw at rest takes about that
+const readPeriod = 50; // ms: nobody reads numbers that change faster
+const shownSpan = 3.4; // [s], a throw takes about that
+const leastForce = 8; // [N], at the top of the scale
 const colours = ['--series-1', '--series-2', '--series-3', '--series-4'];
 
 interface Kind {
@@ -96,13 +98,13 @@ class Plot {
         cursor: { show: false },
         scales: {
           x: { time: false },
-          y: { range: relative ? [-115, 115] : (_, __, max) => [0, Math.max(8, Math.ceil(1.1 * (max ?? 0)))] },
+          y: { range: relative ? [-115, 115] : (_, __, max) => [0, Math.max(leastForce, 1.08 * (max ?? 0))] },
         },
         axes: [
           { ...axis, size: 22, gap: 3, space: 45 },
           {
             ...axis,
-            size: 40,
+            size: 46,
             gap: 3,
             space: 24,
             ...(relative
@@ -123,14 +125,7 @@ class Plot {
     this.chart!.batch(() => {
       this.chart!.setData(data, false);
       this.chart!.setScale('x', { min: span[0], max: span[1] });
-      // The forces' scale follows the data.
-      this.chart!.setData(data, false);
     });
-    if (this.kind.unit === 'N') {
-      let most = 8;
-      for (const series of data.slice(1) as number[][]) for (const value of series) if (value > most) most = value;
-      this.chart!.setScale('y', { min: 0, max: 1.08 * most });
-    }
   }
 
   showPlayhead(x: number | null): void {
@@ -184,6 +179,7 @@ export class Plots {
   private record: Record;
   private drawn = '';
   private nextDraw = 0;
+  private nextRead = 0;
 
   constructor(record: Record) {
     this.record = record;
@@ -214,8 +210,10 @@ export class Plots {
       for (const plot of this.plots) plot.draw(this.data(plot.kind, first, last, zero), shown);
     }
     const i = samples.at(t);
+    for (const plot of this.plots) plot.showPlayhead(i >= 0 ? t - zero : null);
+    if (now < this.nextRead) return;
+    this.nextRead = now + readPeriod;
     for (const plot of this.plots) {
-      plot.showPlayhead(i >= 0 ? t - zero : null);
       const where = plot.kind.from(this.record);
       plot.showReadings(plot.kind.names.map((_, k) => (i < 0 ? NaN : samples.between(i, t, where + k))));
     }

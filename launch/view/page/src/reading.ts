@@ -38,14 +38,20 @@ export class Reading {
   }
 
   tell(record: Record): void {
-    const sentences = [...record.notices];
-    if (record.run && !record.run.goesOn && record.run.words) sentences.push(record.run.words);
-    if (record.run?.goesOn && record.samples.count === 0) sentences.unshift('The processes are starting.');
-    for (const thrown of record.throws) if (thrown.note) sentences.push(`Throw ${thrown.number}: ${thrown.note}`);
-    if (record.skipped > 0) sentences.push(`This page was too slow for ${record.skipped} states, which it does not show.`);
-    const key = JSON.stringify(sentences);
+    const warnings = [...record.notices];
+    if (record.run?.failed) warnings.push(record.run.words);
+    for (const thrown of record.throws) if (thrown.note) warnings.push(`Throw ${thrown.number}: ${thrown.note}`);
+    if (record.skipped > 0) warnings.push(`This page was too slow for ${record.skipped} states, which it does not show.`);
+    const remarks: string[] = [];
+    if (record.run?.goesOn && !record.heard) remarks.push('The processes are starting.');
+    else if (record.advice) remarks.push(record.advice);
+    if (record.recorded && !record.heard) remarks.push(`Recorded. To watch it again: fastball view ${record.recorded}`);
+    const key = JSON.stringify([warnings, remarks]);
     if (key === this.told) return;
     this.told = key;
-    this.notices.replaceChildren(...sentences.map((sentence) => make('li', {}, sentence)));
+    this.notices.replaceChildren(
+      ...warnings.map((sentence) => make('li', { className: 'warning' }, sentence)),
+      ...remarks.map((sentence) => make('li', {}, sentence)),
+    );
   }
 }

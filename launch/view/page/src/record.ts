@@ -1,6 +1,6 @@
 // All that this page has been told.
 
-import type { Frame, Heartbeat, Hello, Throw, TrackPoint, Vector } from './messages';
+import type { Frame, Heartbeat, Hello, Run, Throw, TrackPoint, Vector } from './messages';
 import { Samples } from './samples';
 
 export interface Fix {
@@ -31,7 +31,11 @@ export class Record {
   readonly pictures = new Map<string, CameraPictures>();
   notices: string[] = [];
   heard = false;
-  run: { goesOn: boolean; words: string } | null = null;
+  run: Run | null = null;
+  /** How to begin where nothing is heard, or empty. */
+  advice = '';
+  /** Log that the experiment is recorded in, or empty. */
+  recorded = '';
   /** Newest time [s]. */
   now = 0;
   /** A whole log has been received. */
@@ -65,7 +69,9 @@ export class Record {
     }
     if (header.notices) this.notices = header.notices;
     if (header.heard !== undefined) this.heard = header.heard;
+    if (header.advice !== undefined) this.advice = header.advice;
     if (header.run) this.run = header.run;
+    if (header.recorded !== undefined) this.recorded = header.recorded;
   }
 
   /** First time [s] that can be shown. */

@@ -12,7 +12,7 @@ import { colour, onThemeChange } from './theme';
 type View = { from: [number, number, number]; to: [number, number, number] };
 
 const views: { [name: string]: View } = {
-  side: { from: [0.5, -6.6, 0.9], to: [1.35, 0, -0.25] },
+  side: { from: [0.9, -6.9, 0.8], to: [1.35, 0, -0.32] },
   behind: { from: [-4.2, -1.9, 1.3], to: [1.2, 0, -0.3] },
   above: { from: [1.35, -0.5, 6.6], to: [1.35, 0, -0.3] },
   hand: { from: [0.3, -2.6, 0.8], to: [0.25, -0.1, 0.3] },
@@ -23,6 +23,15 @@ const turnStep = 0.08; // [rad]
 const zoomStep = 1.1;
 /** Half the width that is seen, over the distance. */
 const halfWidth = 0.36;
+
+/** True where there is no graphics card: smooth edges would then cost the frame rate. */
+function drawnByProcessor(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const named = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl && named ? String(gl.getParameter(named.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
 
 export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
@@ -41,8 +50,9 @@ export class Stage {
     private readonly canvas: HTMLCanvasElement,
     private record: Record,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const slow = drawnByProcessor();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !slow });
+    this.renderer.setPixelRatio(slow ? 1 : Math.min(window.devicePixelRatio, 2));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxDistance = 12;

@@ -67,14 +67,14 @@ export class TargetDrawing {
     const dots = landings.map(({ landing, latest }) =>
       shape('circle', { class: latest ? 'dot latest' : 'dot', cx: landing.at[0] * scale, cy: -landing.at[1] * scale, r: 1.4 }),
     );
-    return [cross, ring, ...balls, ...dots, words(0, `ring ${Math.round(2000 * target.radius)} mm`)];
+    return [cross, ring, ...balls, ...dots, words(0, `ring, ${Math.round(2000 * target.radius)} mm`)];
   }
 
   private magnified(landings: Mark[]): SVGElement[] {
     const group = shape('g', { transform: `translate(${2 * half + gap} 0)` });
     const frame = shape('rect', { class: 'frame', x: -half, y: -half, width: 2 * half, height: 2 * half });
     if (landings.length === 0) {
-      group.append(frame, words(0, 'no landing measured yet', 0));
+      group.append(frame, words(0, 'no landing yet', 0));
       return [group];
     }
     const reach = Math.max(
@@ -97,7 +97,7 @@ export class TargetDrawing {
         shape('path', { class: latest ? 'plus latest' : 'plus', d: 'M-2 0H2M0 -2V2', transform: place.replace(/ rotate.*/, '') }),
       ];
     });
-    group.append(grid, cross, frame, ...marks, words(0, `±${(1000 * extent).toPrecision(1).replace(/e.*/, '')} mm, 95 % regions`));
+    group.append(grid, cross, frame, ...marks, words(0, `±${(1000 * extent).toPrecision(1).replace(/e.*/, '')} mm, 95 %`));
     return [group];
   }
 }

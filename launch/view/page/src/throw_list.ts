@@ -17,11 +17,11 @@ function resultOf(thrown: Throw, radius: number, t: number): { words: string; ki
     if (!landing.measured) return { words: 'not measured', kind: 'bad' };
     const miss = Math.hypot(...landing.at);
     return miss < radius
-      ? { words: 'in the ring', kind: 'good' }
+      ? { words: 'in ring', kind: 'good' }
       : { words: `${(1000 * miss).toFixed(0)} mm off`, kind: 'bad' };
   }
   if (thrown.note && thrown.noted <= t) return { words: 'failed', kind: 'bad' };
-  if (thrown.departed !== null && thrown.departed <= t) return { words: 'in flight', kind: '' };
+  if (thrown.departed !== null && thrown.departed <= t) return { words: 'flying', kind: '' };
   if (thrown.scene !== null && thrown.scene <= t) return { words: 'throwing', kind: '' };
   return plan && plan.t <= t ? { words: 'planned', kind: '' } : { words: 'planning', kind: '' };
 }
