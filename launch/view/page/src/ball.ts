@@ -6,8 +6,8 @@ import type { Fix, Record } from './record';
 
 export interface BallPlace {
   p: Vector;
-  /** 'planned': nobody has seen it there. */
-  kind: 'held' | 'measured' | 'planned' | 'landed';
+  /** 'inferred': by its first measurement, backwards; 'planned': nobody has seen it there. */
+  kind: 'held' | 'inferred' | 'measured' | 'planned' | 'landed';
 }
 
 /** How far a track is carried on beyond its last point [s]. */
@@ -18,14 +18,15 @@ function mix(a: Vector, b: Vector, share: number): Vector {
 }
 
 /** On the straight lines between the points, and on the last of them beyond the end. */
-function onTrack(track: Fix[], t: number): Vector | null {
+function onTrack(track: Fix[], t: number): BallPlace | null {
   const last = track.length - 1;
   if (last < 1 || t < track[0]!.t || t > track[last]!.t + longestExtension) return null;
   let i = last - 1;
   while (i > 0 && track[i]!.t > t) --i;
   const a = track[i]!;
   const b = track[i + 1]!;
-  return mix(a.p, b.p, (t - a.t) / Math.max(b.t - a.t, 1e-6));
+  const p = mix(a.p, b.p, (t - a.t) / Math.max(b.t - a.t, 1e-6));
+  return { p, kind: a.measured ? 'measured' : 'inferred' };
 }
 
 export function landingPoint(thrown: Throw, target: { p: Vector; right: Vector; up: Vector }): Vector {
@@ -55,7 +56,7 @@ export function ballAt(record: Record, t: number): BallPlace | null {
   if (landing?.measured && t >= landing.t)
     return { p: landingPoint(thrown, thrown.target ?? record.hello.target), kind: 'landed' };
   const seen = onTrack(record.tracks.get(thrown.number) ?? [], t);
-  if (seen) return { p: seen, kind: 'measured' };
+  if (seen) return seen;
   const expected = planned(thrown, t - departed);
   return expected ? { p: expected, kind: 'planned' } : null;
 }

@@ -12,6 +12,7 @@ const mostPoints = 700;
 const readPeriod = 50; // ms: nobody reads numbers that change faster
 const shownSpan = 3.4; // [s], a throw takes about that
 const leastForce = 8; // [N], at the top of the scale
+const timeLabel = 'time from the planned release, s';
 const colours = ['--series-1', '--series-2', '--series-3', '--series-4'];
 
 interface Kind {
@@ -101,7 +102,7 @@ class Plot {
           y: { range: relative ? [-115, 115] : (_, __, max) => [0, Math.max(leastForce, 1.08 * (max ?? 0))] },
         },
         axes: [
-          { ...axis, size: 22, gap: 3, space: 45 },
+          { ...axis, size: 22, gap: 3, space: 45, ...(relative ? {} : { label: timeLabel, labelSize: 15, labelFont: axis.font }) },
           {
             ...axis,
             size: 46,

@@ -5,7 +5,13 @@ import { armPhases, handPhases, type Throw } from './messages';
 import { element, make, setText, signed } from './page';
 import type { Record } from './record';
 
-const ballWords = { held: 'ball in the hand', measured: 'ball measured', planned: 'ball as planned, not seen', landed: 'ball landed' };
+const ballWords = {
+  held: 'ball in the hand',
+  inferred: 'ball by its later track',
+  measured: 'ball measured',
+  planned: 'ball as planned, not seen',
+  landed: 'ball landed',
+};
 
 function untilRelease(thrown: Throw, t: number): string {
   const release = thrown.departed ?? thrown.plannedRelease;

@@ -9,13 +9,14 @@ import { Net } from './net';
 import type { Record } from './record';
 import { colour, onThemeChange } from './theme';
 
-type View = { from: [number, number, number]; to: [number, number, number] };
+/** `hand`: `from` and `to` are as seen from the grasp, with which the view goes along. */
+type View = { from: [number, number, number]; to: [number, number, number]; hand?: boolean };
 
 const views: { [name: string]: View } = {
   side: { from: [0.9, -6.9, 0.8], to: [1.35, 0, -0.32] },
   behind: { from: [-4.2, -1.9, 1.3], to: [1.2, 0, -0.3] },
   above: { from: [1.35, -0.5, 6.6], to: [1.35, 0, -0.3] },
-  hand: { from: [0.3, -2.6, 0.8], to: [0.25, -0.1, 0.3] },
+  hand: { from: [0.25, -1.3, 0.35], to: [0, 0, 0], hand: true },
 };
 export const viewNames = Object.keys(views);
 
@@ -42,6 +43,8 @@ export class Stage {
   private figure: Figure;
   private flight: Flight;
   private net: Net;
+  /** Where the grasp was when the view was last moved along with it; null: the view stands still. */
+  private followed: THREE.Vector3 | null = null;
   private dirty = true;
   private shownTime = NaN;
   onViewChange: (name: string | null) => void = () => undefined;
@@ -86,6 +89,7 @@ export class Stage {
   look(name: string): void {
     const view = views[name];
     if (!view) return;
+    this.followed = view.hand ? new THREE.Vector3() : null;
     this.camera.position.set(...view.from);
     this.controls.target.set(...view.to);
     this.controls.update();
@@ -125,7 +129,18 @@ export class Stage {
     this.figure.pose(this.record.samples, t);
     this.net.show(this.record.throwAt(t)?.target ?? this.record.hello.target);
     this.flight.show(t);
+    this.goAlong();
     this.renderer.render(this.scene, this.camera);
+  }
+
+  private goAlong(): void {
+    const grasp = this.figure.grasp;
+    if (!this.followed || !grasp || !Number.isFinite(grasp.x)) return;
+    const way = grasp.clone().sub(this.followed);
+    this.followed.copy(grasp);
+    this.camera.position.add(way);
+    this.controls.target.add(way);
+    this.camera.lookAt(this.controls.target);
   }
 
   private resize(): void {
