@@ -12,6 +12,7 @@
 #include "bench/run_rows.h"
 #include "bench/scene_rows.h"
 #include "bench/spy_rows.h"
+#include "bench/view_rows.h"
 #include "bench/vision_rows.h"
 
 namespace fastball::bench {
@@ -20,9 +21,9 @@ std::vector<Benchmark> allBenchmarks() {
   std::vector<Benchmark> all;
   for (const auto& some :
        {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), keyBenchmarks(),
-        loggerBenchmarks(), spyBenchmarks(), launchBenchmarks(), sceneBenchmarks(),
-        visionBenchmarks(), contactBenchmarks(), planBenchmarks(), reachBenchmarks(),
-        robustBenchmarks(), campaignBenchmarks()}) {
+        loggerBenchmarks(), spyBenchmarks(), viewBenchmarks(), launchBenchmarks(),
+        sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(), planBenchmarks(),
+        reachBenchmarks(), robustBenchmarks(), campaignBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
