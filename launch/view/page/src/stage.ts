@@ -14,7 +14,7 @@ type View = { from: [number, number, number]; to: [number, number, number]; hand
 
 const views: { [name: string]: View } = {
   side: { from: [0.9, -6.9, 0.8], to: [1.35, 0, -0.32] },
-  behind: { from: [-4.2, -1.9, 1.3], to: [1.2, 0, -0.3] },
+  behind: { from: [-3.6, -1.3, 1.3], to: [1.2, -0.05, -0.35] },
   above: { from: [1.35, -0.5, 6.6], to: [1.35, 0, -0.3] },
   hand: { from: [0.25, -1.3, 0.35], to: [0, 0, 0], hand: true },
 };
@@ -55,6 +55,8 @@ export class Stage {
   ) {
     const slow = drawnByProcessor();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !slow });
+    // To ask for them waits for the graphics card, in the middle of a throw.
+    this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(slow ? 1 : Math.min(window.devicePixelRatio, 2));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -73,6 +75,7 @@ export class Stage {
     onThemeChange(() => this.recolour());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.look('side');
+    this.prepare();
   }
 
   /** Shows another record from now on. */
@@ -83,7 +86,19 @@ export class Stage {
     this.flight = new Flight(record);
     this.net = new Net(record.hello.target);
     this.scene.add(this.figure.group, this.flight.group, this.net.group);
+    this.prepare();
     this.dirty = true;
+  }
+
+  /** Makes ready what only shows later, so that nothing stops when a ball begins to fly. */
+  private prepare(): void {
+    const hidden: THREE.Object3D[] = [];
+    this.scene.traverse((thing) => {
+      if (!thing.visible) hidden.push(thing);
+      thing.visible = true;
+    });
+    this.renderer.compile(this.scene, this.camera);
+    for (const thing of hidden) thing.visible = false;
   }
 
   look(name: string): void {

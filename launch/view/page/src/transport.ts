@@ -15,6 +15,7 @@ export class Transport {
   private readonly time = element('time');
   private readonly marks = element('marks');
   private span: Span = { start: 0, end: 0, live: true };
+  private shownSpan: Span = { start: NaN, end: NaN, live: true };
   private marked = '';
 
   constructor(
@@ -77,13 +78,18 @@ export class Transport {
     this.play.setAttribute('aria-label', running ? 'Pause' : 'Play');
     this.live.hidden = !span.live;
     this.live.setAttribute('aria-pressed', String(head.following));
-    this.slider.min = String(span.start);
-    this.slider.max = String(span.end);
-    if (document.activeElement !== this.slider || running) this.slider.value = String(head.t);
-    else if (Number(this.slider.value) !== head.t) this.slider.value = String(head.t);
-    this.slider.setAttribute('aria-valuetext', `${head.t.toFixed(3)} s`);
-    this.slider.style.setProperty('--share', String((head.t - span.start) / Math.max(span.end - span.start, 1e-9)));
-    setText(this.time, `${head.t.toFixed(3)} s`);
+    if (this.shownSpan.start !== span.start || this.shownSpan.end !== span.end) {
+      this.shownSpan = { ...span };
+      this.slider.min = String(span.start);
+      this.slider.max = String(span.end);
+      this.slider.value = String(head.t);
+    }
+    const time = `${head.t.toFixed(3)} s`;
+    if (this.slider.getAttribute('aria-valuetext') !== time) {
+      this.slider.value = String(head.t);
+      this.slider.setAttribute('aria-valuetext', time);
+    }
+    setText(this.time, time);
     this.speed.value = String(speeds.includes(head.speed) ? head.speed : 1);
     this.showMarks(record, span);
   }
