@@ -15,7 +15,8 @@ function skip(why) {
   process.exit(77);
 }
 if (!existsSync(chromiumPath)) skip('there is no Chromium; apt-get install chromium');
-if (!existsSync(join(pageSource, 'node_modules/playwright-core'))) skip('the page has not been built; ninja view_page');
+if (!existsSync(join(pageSource, 'node_modules/playwright-core')))
+  skip('the page has not been built; ninja view_page');
 const { chromium } = createRequire(join(pageSource, 'package.json'))('playwright-core');
 const patience = 60_000; // ms, a loaded machine
 mkdirSync(folder, { recursive: true });
@@ -23,7 +24,9 @@ const log = join(folder, 'page_test.lcmlog');
 
 /** Starts `fastball view`; resolves when it serves. */
 function view(...args) {
-  const child = spawn(join(programs, 'fastball'), ['view', '--no-browser', ...args], { cwd: folder });
+  const child = spawn(join(programs, 'fastball'), ['view', '--no-browser', ...args], {
+    cwd: folder,
+  });
   const ended = new Promise((resolve) => child.on('exit', resolve));
   return new Promise((resolve, reject) => {
     let said = '';
@@ -50,7 +53,9 @@ async function open(url, { width = 1280, height = 800, scheme = 'light' } = {}) 
   page.setDefaultTimeout(patience);
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('console', (message) => {
-    const expected = lost && /ERR_CONNECTION|WebSocket|Failed to load resource|Failed to fetch/.test(message.text());
+    const expected =
+      lost &&
+      /ERR_CONNECTION|WebSocket|Failed to load resource|Failed to fetch/.test(message.text());
     if (['error', 'warning'].includes(message.type()) && !expected) faults.push(message.text());
   });
   await page.goto(url);
@@ -94,7 +99,9 @@ const tests = {
     await page.screenshot({ path: join(folder, 'quiet.png') });
     await page.click('#order-throw');
     await state(page, 'live');
-    await page.waitForFunction(() => /^Throw 1/.test(document.querySelector('#reading').textContent));
+    await page.waitForFunction(() =>
+      /^Throw 1/.test(document.querySelector('#reading').textContent),
+    );
     await page.screenshot({ path: join(folder, 'live.png') });
     await row(page, 'in ring');
     assert.equal(await page.locator('#process-rows tr').count(), 7);
@@ -119,7 +126,11 @@ const tests = {
   },
 
   async 'a log is played, paused, stepped and searched'() {
-    execFileSync(join(programs, 'fastball'), ['run', '--throws', '2', '--seed', '3', '--log', log], { stdio: 'ignore' });
+    execFileSync(
+      join(programs, 'fastball'),
+      ['run', '--throws', '2', '--seed', '3', '--log', log],
+      { stdio: 'ignore' },
+    );
     const server = await view(log, '--port', '0');
     const page = await open(server.url, { scheme: 'dark' });
     await state(page, 'log');
@@ -129,19 +140,30 @@ const tests = {
     await page.waitForTimeout(300);
     assert.equal(await time(page), paused);
     await page.keyboard.press('ArrowRight');
-    await page.waitForFunction((t) => parseFloat(document.querySelector('#time').textContent) > t, paused);
+    await page.waitForFunction(
+      (t) => parseFloat(document.querySelector('#time').textContent) > t,
+      paused,
+    );
     assert.ok(Math.abs((await time(page)) - paused - 0.005) < 0.002);
     await page.keyboard.press('End');
     await row(page, 'in ring');
     assert.equal(await page.locator('#throw-rows tr:visible').count(), 2);
     await page.keyboard.press('Home');
-    await page.waitForFunction(() => document.querySelectorAll('#throw-rows tr:not([hidden])').length < 2);
+    await page.waitForFunction(
+      () => document.querySelectorAll('#throw-rows tr:not([hidden])').length < 2,
+    );
     await page.keyboard.press('End');
     await page.getByRole('button', { name: 'Go to throw 1' }).click();
-    await page.waitForFunction(() => /^Throw 1−0\.4/.test(document.querySelector('#reading').textContent));
+    await page.waitForFunction(() =>
+      /^Throw 1−0\.4/.test(document.querySelector('#reading').textContent),
+    );
     for (let i = 0; i < 6; ++i) await page.keyboard.press('Shift+ArrowRight');
-    await page.waitForFunction(() => /ball measured/.test(document.querySelector('#reading').textContent));
-    await page.waitForFunction(() => document.querySelectorAll('.camera:not(.stale) canvas:not([hidden])').length === 2);
+    await page.waitForFunction(() =>
+      /ball measured/.test(document.querySelector('#reading').textContent),
+    );
+    await page.waitForFunction(
+      () => document.querySelectorAll('.camera:not(.stale) canvas:not([hidden])').length === 2,
+    );
     await page.waitForTimeout(500);
     await page.screenshot({ path: join(folder, 'log_dark.png') });
     const edges = await drawn(page);
@@ -189,10 +211,22 @@ const tests = {
   async 'a log without channels says what is not shown'() {
     const part = join(folder, 'part.lcmlog');
     execFileSync('rm', ['-f', part]);
-    execFileSync(join(programs, 'fastball'), ['log', 'cut', log, '-o', part, '--exclude', 'HAND_.*|CAMERA_.*|BALL_.*']);
+    execFileSync(join(programs, 'fastball'), [
+      'log',
+      'cut',
+      log,
+      '-o',
+      part,
+      '--exclude',
+      'HAND_.*|CAMERA_.*|BALL_.*',
+    ]);
     const server = await view(part, '--port', '0');
     const page = await open(server.url);
-    await page.waitForFunction(() => /no HAND_STATE[^]*no images[^]*no BALL_TRACK/.test(document.querySelector('#notices').innerText));
+    await page.waitForFunction(() =>
+      /no HAND_STATE[^]*no images[^]*no BALL_TRACK/.test(
+        document.querySelector('#notices').innerText,
+      ),
+    );
     await page.keyboard.press('End');
     await row(page, 'in ring');
     await page.waitForTimeout(300);

@@ -29,9 +29,14 @@ function onTrack(track: Fix[], t: number): BallPlace | null {
   return { p, kind: a.measured ? 'measured' : 'inferred' };
 }
 
-export function landingPoint(thrown: Throw, target: { p: Vector; right: Vector; up: Vector }): Vector {
+export function landingPoint(
+  thrown: Throw,
+  target: { p: Vector; right: Vector; up: Vector },
+): Vector {
   const [right, up] = thrown.landing!.at;
-  return [0, 1, 2].map((i) => target.p[i]! + right * target.right[i]! + up * target.up[i]!) as Vector;
+  return [0, 1, 2].map(
+    (i) => target.p[i]! + right * target.right[i]! + up * target.up[i]!,
+  ) as Vector;
 }
 
 function planned(thrown: Throw, since: number): Vector | null {

@@ -18,7 +18,10 @@ class Capsule {
     material: THREE.Material,
   ) {
     const segments = radius > 0.03 ? 32 : 16;
-    this.rod = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 1, segments, 1, true), material);
+    this.rod = new THREE.Mesh(
+      new THREE.CylinderGeometry(radius, radius, 1, segments, 1, true),
+      material,
+    );
     const ball = new THREE.SphereGeometry(radius, segments, segments / 2);
     this.ends = [new THREE.Mesh(ball, material), new THREE.Mesh(ball, material)];
     this.group.add(this.rod, ...this.ends);
@@ -47,7 +50,9 @@ export class Figure {
   private readonly points: THREE.Vector3[] = [];
 
   constructor(private readonly hello: Hello) {
-    this.capsules = hello.parts.map((part) => new Capsule(part.radius, part.hand ? this.hand : this.arm));
+    this.capsules = hello.parts.map(
+      (part) => new Capsule(part.radius, part.hand ? this.hand : this.arm),
+    );
     this.group.add(...this.capsules.map((capsule) => capsule.group));
     for (const part of hello.parts)
       for (const i of [part.from, part.to]) this.points[i] ??= new THREE.Vector3(NaN, NaN, NaN);

@@ -87,7 +87,9 @@ export class Flight {
   }
 
   private showMarks(t: number): void {
-    const landed = this.record.throws.filter((thrown) => thrown.landing?.measured && thrown.landing.t < t);
+    const landed = this.record.throws.filter(
+      (thrown) => thrown.landing?.measured && thrown.landing.t < t,
+    );
     const key = landed.map((thrown) => thrown.number).join();
     if (key === this.shownMarks) return;
     this.shownMarks = key;

@@ -32,7 +32,9 @@ export class Header {
     setText(element('source'), hello.source);
     element('source').title = `fastball ${hello.version}, arm ${hello.arm}`;
     this.form.hidden = !hello.mayThrow;
-    document.title = hello.live ? 'fastball view' : `${hello.source.split('/').pop()} – fastball view`;
+    document.title = hello.live
+      ? 'fastball view'
+      : `${hello.source.split('/').pop()} – fastball view`;
   }
 
   setState(state: ConnectionState): void {
@@ -42,7 +44,8 @@ export class Header {
   show(record: Record | null): void {
     const lost = this.state === 'lost';
     const live = record?.hello.live ?? true;
-    const kind = this.state !== 'open' ? this.state : !live ? 'log' : record?.heard ? 'live' : 'quiet';
+    const kind =
+      this.state !== 'open' ? this.state : !live ? 'log' : record?.heard ? 'live' : 'quiet';
     const words: { [kind: string]: string } = {
       connecting: 'Connecting',
       lost: 'Connection lost, trying again',

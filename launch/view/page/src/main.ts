@@ -1,7 +1,10 @@
 // Puts the parts of the page together, and shows sixty times a second what there is to show.
 
 import 'uplot/dist/uPlot.min.css';
-import './style.css';
+import './colours.css';
+import './layout.css';
+import './panels.css';
+import './small_screen.css';
 
 import { Cameras } from './cameras';
 import { Connection } from './connection';
@@ -77,9 +80,21 @@ for (const button of document.querySelectorAll<HTMLButtonElement>('#views button
 document.addEventListener('keydown', (event) => {
   const focus = document.activeElement;
   const writes = focus instanceof HTMLInputElement && focus.type !== 'range';
-  if (writes || focus instanceof HTMLSelectElement || event.ctrlKey || event.altKey || event.metaKey) return;
+  if (
+    writes ||
+    focus instanceof HTMLSelectElement ||
+    event.ctrlKey ||
+    event.altKey ||
+    event.metaKey
+  )
+    return;
   if (event.key === ' ' && focus instanceof HTMLButtonElement) return;
-  const turns: { [key: string]: [number, number] } = { a: [-1, 0], d: [1, 0], w: [0, 1], s: [0, -1] };
+  const turns: { [key: string]: [number, number] } = {
+    a: [-1, 0],
+    d: [1, 0],
+    w: [0, 1],
+    s: [0, -1],
+  };
   const turn = turns[event.key];
   const view = viewNames[Number(event.key) - 1];
   if (turn) stage?.turn(...turn);
@@ -104,7 +119,11 @@ function show(now: number): void {
   before = now;
   header.show(record);
   if (!record) return;
-  const span: Span = { start: record.start, end: Math.max(record.samples.last, record.start), live: record.hello.live };
+  const span: Span = {
+    start: record.start,
+    end: Math.max(record.samples.last, record.start),
+    live: record.hello.live,
+  };
   // A log is not played before it is here.
   if (record.hello.live || record.whole) head.advance(passed, span);
   stage!.draw(head.t);
@@ -121,6 +140,9 @@ function show(now: number): void {
   processes.show(record, head.t, newest);
   reading.tell(record);
   if (frameTimes.length > 1)
-    setText(rate, `${((1000 * (frameTimes.length - 1)) / (frameTimes.at(-1)! - frameTimes[0]!)).toFixed(0)} fps`);
+    setText(
+      rate,
+      `${((1000 * (frameTimes.length - 1)) / (frameTimes.at(-1)! - frameTimes[0]!)).toFixed(0)} fps`,
+    );
 }
 requestAnimationFrame(show);

@@ -144,7 +144,9 @@ export interface Frame {
 
 export function decodeFrame(bytes: ArrayBuffer): Frame {
   const length = new DataView(bytes).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))) as FrameHeader;
+  const header = JSON.parse(
+    new TextDecoder().decode(new Uint8Array(bytes, 4, length)),
+  ) as FrameHeader;
   const start = 4 + length;
   return {
     header,

@@ -73,7 +73,12 @@ class Plot {
       make('span', { className: `key key-${i + 1}` }, make('b', {}, name), ' ', this.readings[i]!),
     );
     figure.append(
-      make('figcaption', {}, make('span', { className: 'title' }, kind.title, ' ', make('small', {}, kind.unit)), make('span', { className: 'keys' }, ...legend)),
+      make(
+        'figcaption',
+        {},
+        make('span', { className: 'title' }, kind.title, ' ', make('small', {}, kind.unit)),
+        make('span', { className: 'keys' }, ...legend),
+      ),
       this.area,
     );
     new ResizeObserver(() => this.resize()).observe(this.area);
@@ -99,21 +104,41 @@ class Plot {
         cursor: { show: false },
         scales: {
           x: { time: false },
-          y: { range: relative ? [-115, 115] : (_, __, max) => [0, Math.max(leastForce, 1.08 * (max ?? 0))] },
+          y: {
+            range: relative
+              ? [-115, 115]
+              : (_, __, max) => [0, Math.max(leastForce, 1.08 * (max ?? 0))],
+          },
         },
         axes: [
-          { ...axis, size: 22, gap: 3, space: 45, ...(relative ? {} : { label: timeLabel, labelSize: 15, labelFont: axis.font }) },
+          {
+            ...axis,
+            size: 22,
+            gap: 3,
+            space: 45,
+            ...(relative ? {} : { label: timeLabel, labelSize: 15, labelFont: axis.font }),
+          },
           {
             ...axis,
             size: 46,
             gap: 3,
             space: 24,
             ...(relative
-              ? { splits: () => [-100, -50, 0, 50, 100], values: (_: uPlot, splits: number[]) => splits.map((v) => `${v} %`) }
+              ? {
+                  splits: () => [-100, -50, 0, 50, 100],
+                  values: (_: uPlot, splits: number[]) => splits.map((v) => `${v} %`),
+                }
               : {}),
           },
         ],
-        series: [{}, ...this.kind.names.map((_, i) => ({ stroke: colour(colours[i]!), width: 1.5, points: { show: false } }))],
+        series: [
+          {},
+          ...this.kind.names.map((_, i) => ({
+            stroke: colour(colours[i]!),
+            width: 1.5,
+            points: { show: false },
+          })),
+        ],
         hooks: { draw: [(u) => relative && drawLimits(u)] },
       },
       [[], ...this.kind.names.map(() => [])] as unknown as uPlot.AlignedData,
@@ -139,10 +164,7 @@ class Plot {
 
   showReadings(values: number[]): void {
     values.forEach((value, i) =>
-      setText(
-        this.readings[i]!,
-        Number.isFinite(value) ? plain(value, this.kind.digits) : '–',
-      ),
+      setText(this.readings[i]!, Number.isFinite(value) ? plain(value, this.kind.digits) : '–'),
     );
     this.figure.classList.toggle('empty', !values.some(Number.isFinite));
   }
@@ -206,7 +228,10 @@ export class Plots {
     if (key !== this.drawn && now >= this.nextDraw) {
       this.drawn = key;
       this.nextDraw = now + drawPeriod;
-      const shown: [number, number] = [from - zero, Math.max(from + shownSpan, samples.time(Math.max(last, 0))) - zero];
+      const shown: [number, number] = [
+        from - zero,
+        Math.max(from + shownSpan, samples.time(Math.max(last, 0))) - zero,
+      ];
       const first = samples.at(from - 1e-9) + 1;
       for (const plot of this.plots) plot.draw(this.data(plot.kind, first, last, zero), shown);
     }
@@ -216,7 +241,9 @@ export class Plots {
     this.nextRead = now + readPeriod;
     for (const plot of this.plots) {
       const where = plot.kind.from(this.record);
-      plot.showReadings(plot.kind.names.map((_, k) => (i < 0 ? NaN : samples.between(i, t, where + k))));
+      plot.showReadings(
+        plot.kind.names.map((_, k) => (i < 0 ? NaN : samples.between(i, t, where + k))),
+      );
     }
   }
 

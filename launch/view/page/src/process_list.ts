@@ -18,7 +18,8 @@ export class ProcessList {
   /** `now`: the newest heartbeats count, by wall time; else those said by `t`. */
   show(record: Record, t: number, now: boolean): void {
     const newest = new Map<string, HeardBeat>();
-    for (const beat of record.heartbeats) if (now || beat.t <= t + 1e-9) newest.set(`${beat.name} ${beat.host}`, beat);
+    for (const beat of record.heartbeats)
+      if (now || beat.t <= t + 1e-9) newest.set(`${beat.name} ${beat.host}`, beat);
     for (const [key, row] of this.rows) row.hidden = !newest.has(key);
     const hosts = new Set([...newest.values()].map((beat) => beat.host));
     for (const [key, beat] of newest) {
@@ -33,7 +34,8 @@ export class ProcessList {
       cells[1]!.className = beat.state === 'failed' ? 'bad' : '';
       cells[2]!.className = late ? 'bad' : '';
       cells[0]!.parentElement!.title =
-        `${beat.name} ${beat.version}, process ${beat.pid} on ${beat.host}` + (beat.detail ? `: ${beat.detail}` : '');
+        `${beat.name} ${beat.version}, process ${beat.pid} on ${beat.host}` +
+        (beat.detail ? `: ${beat.detail}` : '');
     }
   }
 

@@ -15,7 +15,9 @@ const ballWords = {
 
 function untilRelease(thrown: Throw, t: number): string {
   const release = thrown.departed ?? thrown.plannedRelease;
-  return release === null ? '' : `${signed(t - release, 3)} s ${thrown.departed === null ? 'from the planned release' : 'from the release'}`;
+  return release === null
+    ? ''
+    : `${signed(t - release, 3)} s ${thrown.departed === null ? 'from the planned release' : 'from the release'}`;
 }
 
 export class Reading {
@@ -39,19 +41,25 @@ export class Reading {
     const ball = ballAt(record, t);
     setText(this.lines[0]!, thrown ? `Throw ${thrown.number}` : '');
     setText(this.lines[1]!, thrown ? untilRelease(thrown, t) : '');
-    setText(this.lines[2]!, [arm && `arm: ${arm}`, hand && `hand: ${hand}`].filter(Boolean).join(', '));
+    setText(
+      this.lines[2]!,
+      [arm && `arm: ${arm}`, hand && `hand: ${hand}`].filter(Boolean).join(', '),
+    );
     setText(this.lines[3]!, ball ? ballWords[ball.kind] : '');
   }
 
   tell(record: Record): void {
     const warnings = [...record.notices];
     if (record.run?.failed) warnings.push(record.run.words);
-    for (const thrown of record.throws) if (thrown.note) warnings.push(`Throw ${thrown.number}: ${thrown.note}`);
-    if (record.skipped > 0) warnings.push(`This page was too slow for ${record.skipped} states, which it does not show.`);
+    for (const thrown of record.throws)
+      if (thrown.note) warnings.push(`Throw ${thrown.number}: ${thrown.note}`);
+    if (record.skipped > 0)
+      warnings.push(`This page was too slow for ${record.skipped} states, which it does not show.`);
     const remarks: string[] = [];
     if (record.run?.goesOn && !record.heard) remarks.push('The processes are starting.');
     else if (record.advice) remarks.push(record.advice);
-    if (record.recorded && !record.heard) remarks.push(`Recorded. To watch it again: fastball view ${record.recorded}`);
+    if (record.recorded && !record.heard)
+      remarks.push(`Recorded. To watch it again: fastball view ${record.recorded}`);
     const key = JSON.stringify([warnings, remarks]);
     if (key === this.told) return;
     this.told = key;

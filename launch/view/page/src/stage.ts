@@ -114,12 +114,16 @@ export class Stage {
 
   turn(left: number, up: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
-    const spherical = new THREE.Spherical().setFromVector3(new THREE.Vector3(offset.x, offset.z, -offset.y));
+    const spherical = new THREE.Spherical().setFromVector3(
+      new THREE.Vector3(offset.x, offset.z, -offset.y),
+    );
     spherical.theta += left * turnStep;
     spherical.phi -= up * turnStep;
     spherical.makeSafe();
     const turned = new THREE.Vector3().setFromSpherical(spherical);
-    this.camera.position.copy(this.controls.target).add(new THREE.Vector3(turned.x, -turned.z, turned.y));
+    this.camera.position
+      .copy(this.controls.target)
+      .add(new THREE.Vector3(turned.x, -turned.z, turned.y));
     this.controls.update();
     this.onViewChange(null);
   }

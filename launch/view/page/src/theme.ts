@@ -1,4 +1,4 @@
-// Colours are chosen in style.css, for light and for dark; what draws on a canvas asks for them here.
+// Colours are chosen in colours.css, for light and for dark; what draws on a canvas asks for them here.
 
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 

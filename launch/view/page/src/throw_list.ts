@@ -50,7 +50,9 @@ export class ThrowList {
       const { words, kind } = resultOf(thrown, (thrown.target ?? record.hello.target).radius, t);
       setText(cells[4]!, words);
       cells[4]!.className = kind;
-      row.title = [`strategy ${thrown.strategy || 'not heard'}`, thrown.note].filter(Boolean).join('; ');
+      row.title = [`strategy ${thrown.strategy || 'not heard'}`, thrown.note]
+        .filter(Boolean)
+        .join('; ');
     }
   }
 

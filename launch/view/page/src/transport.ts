@@ -31,7 +31,8 @@ export class Transport {
     this.speed.onchange = () => (head.speed = Number(this.speed.value));
     this.slider.onkeydown = (event) => {
       // The arrows step by the same everywhere.
-      if (event.key.startsWith('Arrow') || event.key === 'Home' || event.key === 'End') event.preventDefault();
+      if (event.key.startsWith('Arrow') || event.key === 'Home' || event.key === 'End')
+        event.preventDefault();
     };
   }
 
@@ -96,7 +97,9 @@ export class Transport {
 
   /** Where each ball departed, above the slider. */
   private showMarks(record: Record, span: Span): void {
-    const times = record.throws.flatMap((thrown) => (thrown.departed === null ? [] : [thrown.departed]));
+    const times = record.throws.flatMap((thrown) =>
+      thrown.departed === null ? [] : [thrown.departed],
+    );
     const key = `${span.start} ${span.end} ${times.join()}`;
     if (key === this.marked) return;
     this.marked = key;
