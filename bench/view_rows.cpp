@@ -29,7 +29,7 @@ namespace bp = boost::process;
 namespace fs = std::filesystem;
 
 constexpr const char* kThrows = "5";
-constexpr int kPairs = 2;
+constexpr int kPairs = 3;
 
 /// A folder of its own, while it is needed.
 struct Folder {

@@ -57,8 +57,7 @@ class CameraView {
         const image = await createImageBitmap(await answer.blob());
         if (this.canvas.width !== image.width) this.canvas.width = image.width;
         if (this.canvas.height !== image.height) this.canvas.height = image.height;
-        this.canvas.getContext('2d')!.drawImage(image, 0, 0);
-        image.close();
+        this.canvas.getContext('bitmaprenderer')!.transferFromImageBitmap(image);
       }
       this.shown = number;
     } catch {
