@@ -55,6 +55,19 @@ TEST(Processes, OneThatIsKilledIsNamedWithTheSignal) {
   EXPECT_THAT(*sentence, HasSubstr("controller was ended by signal 9 (Killed)"));
 }
 
+TEST(Processes, ExitStatusTellsHowOneEnded) {
+  Processes processes;
+  processes.start(shell("planner", "exit 3"));
+  processes.start(shell("controller", "sleep 100"));
+  await([&] { return processes.exitStatus("planner") >= 0; });
+  EXPECT_EQ(processes.exitStatus("planner"), 3);
+  EXPECT_EQ(processes.exitStatus("controller"), -1);
+  kill(processes.pid("controller"), SIGKILL);
+  await([&] { return processes.exitStatus("controller") >= 0; });
+  EXPECT_EQ(processes.exitStatus("controller"), 128 + SIGKILL);
+  EXPECT_EQ(processes.exitStatus("nobody"), -1);
+}
+
 TEST(Processes, KeepsOnlyTheLastLines) {
   Processes processes;
   processes.start(shell("talker", "for i in $(seq 1000); do echo line $i; done"));

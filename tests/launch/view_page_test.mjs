@@ -3,7 +3,7 @@
 //   node view_page_test.mjs PROGRAMS PAGE_SOURCE CHROMIUM FOLDER    (pictures and the log go to FOLDER)
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { existsSync, mkdirSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
@@ -19,6 +19,7 @@ if (!existsSync(join(pageSource, 'node_modules/playwright-core')))
   skip('the page has not been built; ninja view_page');
 const { chromium } = createRequire(join(pageSource, 'package.json'))('playwright-core');
 const patience = 60_000; // ms, a loaded machine
+rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const log = join(folder, 'page_test.lcmlog');
 
@@ -64,6 +65,11 @@ async function open(url, { width = 1280, height = 800, scheme = 'light' } = {}) 
 
 const state = (page, wanted) => page.waitForSelector(`#connection[data-state="${wanted}"]`);
 const row = (page, words) => page.locator('#throw-rows tr', { hasText: words }).first().waitFor();
+const count = (page, what, wanted) =>
+  page.waitForFunction(
+    ([selector, number]) => document.querySelectorAll(selector).length === number,
+    [what, wanted],
+  );
 const time = async (page) => parseFloat(await page.locator('#time').textContent());
 /** How many dots of the 3-D view differ from their left neighbour. */
 async function drawn(page) {
@@ -104,9 +110,9 @@ const tests = {
     );
     await page.screenshot({ path: join(folder, 'live.png') });
     await row(page, 'in ring');
-    assert.equal(await page.locator('#process-rows tr').count(), 7);
-    assert.equal(await page.locator('.camera canvas:visible').count(), 2);
-    assert.equal(await page.locator('#target .region').count(), 1);
+    await count(page, '#process-rows tr', 7);
+    await count(page, '.camera canvas:not([hidden])', 2);
+    await count(page, '#target .region', 1);
 
     // A second viewer sees what was before it came.
     const other = await open(server.url, { scheme: 'dark' });
@@ -121,6 +127,47 @@ const tests = {
     await state(page, 'quiet');
     lost = false;
     await other.close();
+    await page.close();
+    await again.stop();
+  },
+
+  async 'a run is stopped, is refused beside another, and ends with the viewer'() {
+    const server = await view('--port', '0');
+    const page = await open(server.url);
+    await state(page, 'quiet');
+    await page.fill('#order-throws', '20');
+    await page.click('#order-throw');
+    await state(page, 'live');
+    await page.click('#order-stop');
+    await page.waitForSelector('#order-throw:enabled');
+    await page.waitForFunction(() => /interrupted/.test(document.querySelector('#notices').innerText));
+    await state(page, 'quiet');
+
+    const other = spawn(
+      join(programs, 'fastball'),
+      ['run', '--throws', '20', '--log', join(folder, 'other.lcmlog')],
+      { stdio: 'ignore' },
+    );
+    const ended = new Promise((resolve) => other.on('exit', resolve));
+    await state(page, 'live');
+    await page.click('#order-throw');
+    await page.waitForFunction(() =>
+      /another run|already/.test(document.querySelector('#notices').innerText),
+    );
+    await state(page, 'live');
+    other.kill('SIGINT');
+    await ended;
+    await state(page, 'quiet');
+
+    await page.click('#order-throw');
+    await state(page, 'live');
+    lost = true;
+    await server.stop();
+    const again = await view('--port', new URL(server.url).port);
+    await state(page, 'quiet');
+    lost = false;
+    await page.waitForTimeout(2500); // more than the time between two HEARTBEATs
+    await state(page, 'quiet');
     await page.close();
     await again.stop();
   },
@@ -147,7 +194,7 @@ const tests = {
     assert.ok(Math.abs((await time(page)) - paused - 0.005) < 0.002);
     await page.keyboard.press('End');
     await row(page, 'in ring');
-    assert.equal(await page.locator('#throw-rows tr:visible').count(), 2);
+    await count(page, '#throw-rows tr:not([hidden])', 2);
     await page.keyboard.press('Home');
     await page.waitForFunction(
       () => document.querySelectorAll('#throw-rows tr:not([hidden])').length < 2,
