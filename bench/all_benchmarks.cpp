@@ -7,6 +7,7 @@
 #include "bench/model_rows.h"
 #include "bench/plan_rows.h"
 #include "bench/reach_rows.h"
+#include "bench/report_rows.h"
 #include "bench/robust_rows.h"
 #include "bench/row.h"
 #include "bench/run_rows.h"
@@ -23,7 +24,7 @@ std::vector<Benchmark> allBenchmarks() {
        {runBenchmarks(), modelBenchmarks(), messagingBenchmarks(), keyBenchmarks(),
         loggerBenchmarks(), spyBenchmarks(), viewBenchmarks(), launchBenchmarks(),
         sceneBenchmarks(), visionBenchmarks(), contactBenchmarks(), planBenchmarks(),
-        reachBenchmarks(), robustBenchmarks(), campaignBenchmarks()}) {
+        reachBenchmarks(), robustBenchmarks(), campaignBenchmarks(), reportBenchmarks()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -79,8 +79,8 @@ std::string stripPlot(const Table& table, std::size_t column) {
   const double size = std::max(most - least, 0.1);
   return fmt::format(
       "set yrange [{0:.4f}:{1:.4f}]; set ytics {2:g}\n"
-      "plot $l u 1:{3}:{4} w yerrorbars pt 7 ps 0.9 lw 2 lc rgb {5} title 'measured, 95 % "
-      "interval', $l u 1:{6} w p pt 2 ps 1.2 lw 2 lc rgb '#000000' title 'true'\n",
+      "plot $l u 1:{3}:{4} w yerrorbars pt 7 ps 0.9 lw 2 lc rgb {5} title 'measured, 95 %', $l u "
+      "1:{6} w p pt 2 ps 1.2 lw 2 lc rgb '#000000' title 'true'\n",
       least - 0.1 * size, most + 0.1 * size, roundStep(size / 4), column, column + 2, kColours[1],
       column + 4);
 }
@@ -90,7 +90,7 @@ std::string commandsOf(const Table& table, double half_width) {
   return kStyle +
          fmt::format(
              "set termoption noenhanced\nset multiplot\n"
-             "set lmargin at screen 0.07; set rmargin at screen 0.435\n"
+             "set lmargin at screen 0.07; set rmargin at screen 0.42\n"
              "set tmargin at screen 0.92; set bmargin at screen 0.125\n"
              "set xrange [-{0}:{0}]; set yrange [-{0}:{0}]; set xtics {1:g}; set ytics {1:g}\n"
              "set title 'The net, seen from the robot' offset 0,-0.6; set key off\n"
@@ -98,13 +98,13 @@ std::string commandsOf(const Table& table, double half_width) {
              "plot $rings index 0 w l lw 3 lc rgb '#222222', $rings index 1 w l lw 1.5 dt 2 lc rgb "
              "'#222222', $ellipses w l lw 1.5 lc rgb {2}, $l u 2:3 w p pt 7 ps 0.6 lc rgb {2}, "
              "$l u 6:7 w p pt 2 ps 0.8 lw 1.5 lc rgb '#000000'\n"
-             "set lmargin at screen 0.535; set rmargin at screen 0.985; unset title\n"
+             "set lmargin at screen 0.55; set rmargin at screen 0.985; unset title\n"
              "set xrange [{3}:{4}]; set xtics {5:g}\n"
              "set tmargin at screen 0.92; set bmargin at screen 0.555; set format x ''\n"
              "set key at screen 0.985,0.995 top right horizontal maxrows 1; unset xlabel\n"
-             "set ylabel 'right (mm)'\n{6}"
+             "set ylabel 'right (mm)' offset -0.5,0\n{6}"
              "set tmargin at screen 0.49; set bmargin at screen 0.125; set format x '%g'\n"
-             "set key off; set xlabel 'throw' offset 0,0.4; set ylabel 'up (mm)'\n{7}"
+             "set key off; set xlabel 'throw' offset 0,0.4; set ylabel 'up (mm)' offset -0.5,0\n{7}"
              "unset multiplot\n",
              half_width, roundStep(half_width / 2.5), kColours[1], first, last,
              std::max(1.0, roundStep((last - first) / 20)), stripPlot(table, 2),

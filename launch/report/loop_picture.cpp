@@ -48,14 +48,14 @@ std::string drawLoops(const LoggedRun& run, const std::string& path_stem) {
               "0\n"
               "set key at screen 0.985,{6:.4f} top right horizontal maxrows 1\n"
               "plot $p u 2:1:2:4 w xerrorbars pt 0 lw 1.5 lc rgb '#909090' notitle, "
-              "'' u 2:1 w p pt 7 ps 1.2 lc rgb {7} title 'mean (median over the run)', "
+              "'' u 2:1 w p pt 7 ps 1.2 lc rgb {7} title 'mean', "
               "'' u 3:1 w p pt 6 ps 1.2 lw 2 lc rgb {7} title 'largest mean', "
               "'' u 4:1 w p pt 9 ps 1.4 lc rgb {8} title 'longest'\n",
               1 - 40.0 / height, 56.0 / height, std::max(kLeast, least / 2), 2 * most, 0.5 - rows,
               tics, 1 - 6.0 / height, kColours[0], kColours[1]));
-  return "By the HEARTBEATs of each process: how long it took to handle what one turn of its loop "
-         "had "
-         "brought.";
+  return "By the HEARTBEATs of each process: how long one turn of its loop took. Mean: the median "
+         "of "
+         "the means that it gave once a second; the largest of them; and the longest turn of all.";
 }
 
 }  // namespace fastball::launch

@@ -30,12 +30,6 @@ const std::vector<Sender>& senders() {
   return all;
 }
 
-bool tookPart(const LoggedRun& run, const std::string& process) {
-  return process.empty() || run.processes.empty() ||
-         std::any_of(run.processes.begin(), run.processes.end(),
-                     [&](const LoggedProcess& p) { return p.last().name == process; });
-}
-
 void findChannels(const LoggedRun& run, Missing& missing) {
   for (const Sender& sender : senders()) {
     std::vector<std::string> absent;
@@ -46,7 +40,7 @@ void findChannels(const LoggedRun& run, Missing& missing) {
     if (absent.empty())
       continue;
     const std::string names = fmt::format("{}", fmt::join(absent, ", "));
-    if (tookPart(run, sender.process))
+    if (sender.process.empty() || tookPart(run, sender.process))
       missing.faults.push_back(fmt::format("The log holds no message on {}.", names));
     else
       missing.notes.push_back(
@@ -124,6 +118,12 @@ Missing missingOf(const LoggedRun& run) {
         fmt::format("There is no '{}': command line, seed and configuration are not recorded.",
                     logger::runRecordPath(run.path)));
   return missing;
+}
+
+bool tookPart(const LoggedRun& run, const std::string& process) {
+  return run.processes.empty() ||
+         std::any_of(run.processes.begin(), run.processes.end(),
+                     [&](const LoggedProcess& p) { return p.last().name == process; });
 }
 
 std::string numberWords(const std::vector<int64_t>& numbers) {

@@ -14,8 +14,11 @@ struct Missing {
       notes;  ///< it need not: nobody was to say it, or a few messages were lost
 };
 
-/// A channel is looked for if its sender took part in the run by the HEARTBEATs, or if there are none.
+/// A channel is looked for if its sender took part.
 Missing missingOf(const LoggedRun& run);
+
+/// Whether a process of this name took part in the run; without HEARTBEATs nobody knows, and it may have.
+bool tookPart(const LoggedRun& run, const std::string& process);
 
 /// "1 to 4, 7 and 9". @param numbers ascending.
 std::string numberWords(const std::vector<int64_t>& numbers);

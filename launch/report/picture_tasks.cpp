@@ -33,15 +33,17 @@ void addThrow(const LoggedRun& run,
               const config::Experiment& experiment,
               std::vector<PictureTask>& tasks) {
   const LoggedThrow& thrown = run.throws.at(number);
-  tasks.push_back({"release", number, true, [&, number](const std::string& stem) {
-                     return drawReleaseOf(thrown, number, experiment, stem);
-                   }});
   tasks.push_back({"throw", number, false,
                    [&](const std::string& stem) { return drawThrow(thrown, experiment, stem); }});
   tasks.push_back({"motion", number, true,
                    [&](const std::string& stem) { return drawMotion(thrown, experiment, stem); }});
   tasks.push_back({"fingers", number, true,
                    [&](const std::string& stem) { return drawFingers(thrown, stem); }});
+  if (!tookPart(run, "vision_tracker"))
+    return;
+  tasks.push_back({"release", number, true, [&, number](const std::string& stem) {
+                     return drawReleaseOf(thrown, number, experiment, stem);
+                   }});
   tasks.push_back({"residuals", number, true, [&](const std::string& stem) {
                      return drawResiduals(thrown, run.cameras, experiment, stem);
                    }});

@@ -28,7 +28,7 @@ struct DrawnPicture {
   std::string failure;  ///< why there is none, or empty
 };
 
-/// All pictures of a run. `run` and `experiment` must live as long.
+/// All pictures of a run; those that take a tracker only if one took part. `run` and `experiment` must live as long.
 std::vector<PictureTask> picturesOf(const LoggedRun& run, const config::Experiment& experiment);
 
 /// Draws them, as many at a time as there are processors. @param folder that exists.

@@ -28,8 +28,8 @@ constexpr double kAfter = 0.05;        ///< [s], the arm is shown so long after 
 constexpr double kLongestFlight = 10;  ///< [s], that is drawn
 constexpr double kUpperArm = 0.55;     ///< [m], end of the upper arm's centre line, for drawing
 constexpr double kMargin = 0.08;       ///< [m], about what is seen
-constexpr int kWidth = 1000, kLeft = 66, kRight = 12, kTop = 40;      ///< [px]
-constexpr int kFace = 206, kBetween = 84, kBelow = 60, kLabels = 72;  ///< [px]
+constexpr int kWidth = 1000, kLeft = 66, kRight = 12, kTop = 40;                 ///< [px]
+constexpr int kFace = 206, kBetween = 84, kBelow = 60, kLabels = 72, kKey = 30;  ///< [px]
 constexpr const char *kBefores = "'#0072B2'", *kAfters = "'#D55E00'";
 
 /// Coordinates of a throw: level towards the net, to the left, up.
@@ -167,7 +167,7 @@ class Sheet {
     side_ = static_cast<int>((kWidth - kLeft - kRight) * size.z() / size.x());
     above_width_ = kWidth - kLeft - kRight - 2 * (kFace + kBetween);
     above_ = static_cast<int>(above_width_ * size.y() / size.x());
-    lower_ = std::max(above_, kFace);
+    lower_ = std::max(above_ + kBelow + kKey, kFace);
   }
   int height() const { return kTop + side_ + kLabels + 24 + lower_ + kBelow; }
   std::string sidePanel() const {
@@ -229,12 +229,13 @@ std::string timeLabels(const Strobe& strobe) {
   return strobe.times.empty() ? "" : ", $times u 1:2:3 w labels offset 0,1.6 font ',10'";
 }
 
-/// Beside the ball that leaves.
+/// Below the ball that leaves.
 std::string departureLabel(const Strobe& strobe, double radius) {
   if (!strobe.departure)
     return "";
-  return fmt::format("set label 1 'leaves the hand' at {:.4f},{:.4f} left font ',10'\n",
-                     strobe.departure->x() + 1.6 * radius, strobe.departure->z());
+  return fmt::format(
+      "set label 1 'leaves the hand' at {:.4f},{:.4f} center offset 0,-0.8 font ',10'\n",
+      strobe.departure->x(), strobe.departure->z() - 1.1 * radius);
 }
 
 std::string blocksOf(const Strobe& strobe, const std::string& ring) {

@@ -66,7 +66,9 @@ std::vector<Html> throwRow(int64_t throw_number,
   row.push_back(thrown.truth.landing    ? pairOf(*thrown.truth.landing, true)
                 : thrown.truth.finished ? Html{"never crossed"}
                                         : Html{});
-  row.push_back(thrown.record.landing ? number(thrown.record.landing->residual_px, 3) : Html{});
+  row.push_back(thrown.record.landing && thrown.record.landing->n_observations > 0
+                    ? number(thrown.record.landing->residual_px, 3)
+                    : Html{});
   row.push_back(verdict(thrown, judged.hit));
   row.push_back(verdict(thrown, isClean(thrown, experiment)));
   row.push_back(escaped(judged.seen.note));
