@@ -1,10 +1,5 @@
 #include "launch/throw_record.h"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
-#include "launch/log_endpoint.h"
 #include "messaging/channels.h"
 
 namespace fastball::launch {
@@ -18,16 +13,6 @@ void append(std::vector<State>& states, const State& state) {
 }
 
 }  // namespace
-
-std::map<int64_t, ThrowRecord> readThrows(const std::string& log_path) {
-  std::map<int64_t, ThrowRecord> throws;
-  LogEndpoint log;
-  recordThrows(log, throws);
-  log.play(log_path);
-  if (throws.empty())
-    throw std::invalid_argument(fmt::format("'{}' holds no throw", log_path));
-  return throws;
-}
 
 void recordThrows(messaging::Endpoint& endpoint, std::map<int64_t, ThrowRecord>& throws) {
   using namespace messaging;

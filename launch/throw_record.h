@@ -23,11 +23,8 @@ struct ThrowRecord {
   std::vector<ball_track_t> track;  ///< in order
 };
 
-/// All throws of a log by their number.
-/// @throw std::invalid_argument if the file cannot be read or holds no throw.
-std::map<int64_t, ThrowRecord> readThrows(const std::string& log_path);
-
-/// The same of a run that goes on: subscribes to what a record is made of. `throws` must outlive the endpoint.
+/// Hears all throws of a run or of a log (launch/log_endpoint.h), by their number: subscribes to what a record is made of. `throws` must
+/// outlive the endpoint.
 void recordThrows(messaging::Endpoint& endpoint, std::map<int64_t, ThrowRecord>& throws);
 
 }  // namespace fastball::launch

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -111,9 +112,13 @@ std::optional<WrittenRunRecord> readRunRecord(const std::string& log_path) {
 std::string restoreConfiguration(const std::string& log_path, const std::string& folder) {
   namespace fs = std::filesystem;
   const nlohmann::json json = readRecord(log_path);
-  const std::string experiment = fs::path(json.value("config", "")).filename().string();
-  const auto texts = json.value("configuration", nlohmann::json::object());
-  if (experiment.empty() || !texts.contains(experiment))
+  const std::string experiment = fs::path(textOf(json, "config")).filename().string();
+  const auto found = json.find("configuration");
+  if (experiment.empty() || found == json.end() || !found->is_object())
+    return "";
+  const nlohmann::json& texts = *found;
+  const auto is_text = [](const nlohmann::json& text) { return text.is_string(); };
+  if (!texts.contains(experiment) || !std::all_of(texts.begin(), texts.end(), is_text))
     return "";
   for (const auto& [name, text] : texts.items()) {
     const fs::path relative = fs::path(name).lexically_normal();

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "launch/throw_record.h"
+#include "launch/report/run_page.h"
 #include "logger/log_edit.h"
 #include "logger/log_export.h"
 #include "logger/log_reader.h"
@@ -56,6 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   using namespace fastball;
   static const MemoryFile file("log");
   static const messaging::TypeLibrary types;
+  static const config::Experiment experiment =
+      config::loadExperiment(FASTBALL_SOURCE_DIR "/config/experiment.yaml");
   file.hold(data, size);
   const std::string path = file.path();
   try {
@@ -69,9 +71,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     logger::exportCsv(path, options, types, csv);
   } catch (const std::invalid_argument&) {  // holds no message, or none that decodes
   }
-  try {
-    launch::readThrows(path);
-  } catch (const std::invalid_argument&) {  // holds no throw
-  }
+  const launch::LoggedRun run = launch::readRun(path);
+  const std::string page = launch::runPage(run, experiment, {"", launch::missingOf(run), {}}) +
+                           throwsCsv(run, experiment);
+  if (page.find("<script") != std::string::npos)
+    fuzz::die("the report takes text for HTML");
   return 0;
 }

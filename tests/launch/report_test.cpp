@@ -258,6 +258,18 @@ TEST(RunRecord, IsReadAsItWasWritten) {
   EXPECT_EQ(RecordedConfiguration(log, "other.yaml").experiment(), "other.yaml");
 }
 
+TEST(RunRecord, ThatMakesNoSenseIsNone) {
+  const config::TemporaryFolder folder;
+  const std::string log = (folder.path() / "log").string();
+  for (const char* text :
+       {"", "[]", "{\"config\": 3}", "{\"config\": \"a\", \"configuration\": []}",
+        "{\"config\": \"a\", \"configuration\": {\"a\": 3}}"}) {
+    folder.write("log.run.json", text);
+    EXPECT_FALSE(RecordedConfiguration(log, "").isRecorded()) << text;
+    EXPECT_EQ(logger::readRunRecord(log).value_or(logger::WrittenRunRecord{}).seed, 0) << text;
+  }
+}
+
 TEST(JointShares, OfTheDifferentialAddBothMagnitudes) {
   const config::Experiment experiment = config::loadExperiment(kExperiment);
   arm_state_t state{};
