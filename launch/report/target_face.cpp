@@ -124,9 +124,10 @@ FacePanels facePanels(const LoggedThrow& thrown,
       marks.places.empty() ? "set label 9 'no landing' at graph 0.5,0.5 center front\n" : "",
       marks.plot, marks.key);
   if (!marks.places.empty())
-    panels.commands +=
-        fmt::format("set title 'The landing, enlarged' offset 0,-0.6\n{}{}plot NaN{}\n", enlarged,
-                    squareAxes(marks.centre(), 1.3 * marks.reach), marks.plot);
+    panels.commands += fmt::format(
+        "set title 'The landing, enlarged' offset 0,-0.6; set ylabel offset -0.3,0\n{}{}plot "
+        "NaN{}\n",
+        enlarged, squareAxes(marks.centre(), 1.3 * marks.reach), marks.plot);
   return panels;
 }
 

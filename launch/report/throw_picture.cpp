@@ -229,13 +229,14 @@ std::string timeLabels(const Strobe& strobe) {
   return strobe.times.empty() ? "" : ", $times u 1:2:3 w labels offset 0,1.6 font ',10'";
 }
 
-/// Below the ball that leaves.
+/// At the foot of the panel, where no ball is, with a line from there to the ball that leaves.
 std::string departureLabel(const Strobe& strobe, double radius) {
   if (!strobe.departure)
     return "";
   return fmt::format(
-      "set label 1 'leaves the hand' at {:.4f},{:.4f} center offset 0,-0.8 font ',10'\n",
-      strobe.departure->x(), strobe.departure->z() - 1.1 * radius);
+      "set arrow 1 from {0:.4f},{1:.4f} to {0:.4f}, graph 0.085 nohead lw 1 dt 3 lc rgb {2}\n"
+      "set label 1 'leaves the hand' at {0:.4f}, graph 0.045 center font ',10'\n",
+      strobe.departure->x(), strobe.departure->z() - radius, kGrey);
 }
 
 std::string blocksOf(const Strobe& strobe, const std::string& ring) {
@@ -296,7 +297,7 @@ std::string drawThrow(const LoggedThrow& thrown,
               "set termoption noenhanced\nset multiplot\nset key off\n"
               "set xlabel 'towards the net (m)' offset 0,0.5; set xtics 0.5\n"
               "{}set title 'Side view' offset 0,-0.6; set ylabel 'up (m)' offset 1.2,0\n"
-              "set ytics 0.2\n{}{}{}\nunset label 1\n"
+              "set ytics 0.2\n{}{}{}\nunset label 1; unset arrow 1\n"
               "{}set title 'Seen from above' offset 0,-0.6; set ylabel 'left (m)' offset 1.2,0\n"
               "set ytics 0.5\n{}\n{}unset multiplot\n",
               sheet.sidePanel(), departureLabel(strobe, radius), strobePlot(strobe, 3, radius),
