@@ -15,7 +15,10 @@ function skip(why) {
   process.exit(77);
 }
 if (!existsSync(chromiumPath)) skip('there is no Chromium; apt-get install chromium');
-if (!existsSync(join(pageSource, 'node_modules/playwright-core')))
+if (
+  !existsSync(join(programs, 'view-page/index.html')) ||
+  !existsSync(join(pageSource, 'node_modules/playwright-core'))
+)
   skip('the page has not been built; ninja view_page');
 const { chromium } = createRequire(join(pageSource, 'package.json'))('playwright-core');
 const patience = 60_000; // ms, a loaded machine
