@@ -162,7 +162,7 @@ std::vector<std::string> drawThrowNumbers(const CampaignResults& results,
 set title 'Hits by the number of the throw in its set-up, with 95 % intervals' font ',13'
 set xlabel 'throw of the set-up'; set ylabel 'hits (%)'
 set xrange [0.5:{}]; set yrange [0:102]; set xtics {}
-set key below center horizontal
+set bmargin 6; set key bottom center at screen 0.5, screen 0.02 horizontal
 {}
 )gp",
                                    results.campaign.set_up_throws + 0.5,

@@ -67,7 +67,7 @@ TEST(Throws, ADroppedBallIsAMissThatSaysWhyItWasNotMeasured) {
   const EditedConfig weak_grip("experiment.yaml", "grip_force: 6.0", "grip_force: 0.3");
   const std::string errors = weak_grip.experiment() + ".errors";
   std::ofstream(errors) << "throw:\n  friction: {uniform: [-0.94, -0.93], unit: relative}\n"
-                               "  grasp_offset: {normal: 0.01, unit: m}\n";
+                           "  grasp_offset: {normal: 0.01, unit: m}\n";
   const std::vector<std::string> command = {
       "run",           "--throws", "1", "--strategy", "paper", "--config", weak_grip.experiment(),
       "--uncertainty", errors};
