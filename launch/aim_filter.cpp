@@ -24,10 +24,14 @@ void AimFilter::observe(const model::LandingJacobian& H,
     R *= std::pow(distance / settings_.gate, 2);
   const Eigen::Matrix<double, model::kLandingBiases, 2> gain =
       (spread + R).llt().solve(H * covariance_).transpose();
-  biases_ += gain * innovation;
+  const model::LandingBiases biases = biases_ + gain * innovation;
   // Joseph's form keeps the covariance symmetric and positive.
   const Covariance rest = Covariance::Identity() - gain * H;
-  covariance_ = rest * covariance_ * rest.transpose() + gain * R * gain.transpose();
+  const Covariance remaining = rest * covariance_ * rest.transpose() + gain * R * gain.transpose();
+  if (!biases.allFinite() || !remaining.allFinite())
+    return;
+  biases_ = biases;
+  covariance_ = remaining;
   // Until the next throw what is forgotten goes back to the prior: the spread stays bounded.
   const double keep = 1 - settings_.drift * settings_.drift;
   biases_ *= std::sqrt(keep);

@@ -28,7 +28,7 @@ class AimFilter {
   explicit AimFilter(const AimSettings& settings);
 
   /// A ball whose landing was predicted, with the biases known then, at `predicted` [m] has landed at `landing` [m] (right, up, from the
-  /// target's centre), measured with `covariance` [m^2].
+  /// target's centre), measured with `covariance` [m^2]. Numbers too large to compute with change nothing.
   void observe(const model::LandingJacobian& H,
                const Eigen::Vector2d& predicted,
                const Eigen::Vector2d& landing,

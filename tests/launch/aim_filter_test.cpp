@@ -91,6 +91,15 @@ TEST(AimFilter, AThrowFarOffCountsLittle) {
   EXPECT_LT((jacobian() * filter.biases() - before).norm(), 0.02);
 }
 
+TEST(AimFilter, LearnsNothingFromNumbersThatOverflow) {
+  AimFilter filter(kSettings);
+  thrown(filter, {0.06, -0.05}, 0, 2);
+  const model::LandingBiases before = filter.biases();
+  filter.observe(jacobian(), Vector2d::Zero(), {1e200, -1e300}, Matrix2d::Identity() * 1e-6);
+  EXPECT_EQ(filter.biases(), before);
+  EXPECT_TRUE(filter.covariance().allFinite());
+}
+
 TEST(AimFilter, FollowsASetUpThatChanges) {
   AimFilter filter(kSettings);
   thrown(filter, {0.05, 0}, 0.005, 200);
