@@ -32,10 +32,11 @@ void writeText(const fs::path& path, const std::string& text) {
     throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
 }
 
-/// This program with other arguments. @return what it printed.
-std::string fastball(const std::vector<std::string>& arguments) {
+/// This program with other arguments, in a folder. @return what it printed.
+std::string fastball(const std::vector<std::string>& arguments, const fs::path& folder = ".") {
   bp::ipstream output;
-  bp::child child(programFolder() + "/fastball", bp::args(arguments), bp::std_out > output);
+  bp::child child(programFolder() + "/fastball", bp::args(arguments), bp::std_out > output,
+                  bp::start_dir(folder.string()));
   const std::string text{std::istreambuf_iterator<char>(output), {}};
   child.wait();
   if (child.exit_code() != 0)
@@ -50,10 +51,11 @@ void makeMessages(const DocumentOptions& options) {
 
 void makeThrow(const DocumentOptions& options) {
   const fs::path work = options.campaigns / "throw";
+  fs::remove_all(work);
   fs::create_directories(work);
-  const std::string log = (work / "throw.lcmlog").string();
-  const std::string said = fastball({"run", "--seed", "1", "--log", log});
-  fastball({"report", log, "-o", (work / "report").string()});
+  const std::string said = fastball({"run", "--seed", "1"}, work);
+  const std::size_t log = said.find("\nlog ") + 5;  // its second line
+  fastball({"report", said.substr(log, said.find('\n', log) - log), "-o", "report"}, work);
   fs::copy_file(work / "report/throw-1.png", options.tree / "docs/throw.png",
                 fs::copy_options::overwrite_existing);
   const fs::path readme = options.tree / "README.md";
