@@ -11,12 +11,18 @@ namespace {
 /// No aim is farther [m] from the target's centre: beyond that it is the biases that are wrong.
 constexpr double kFarthestAim = 0.3;
 
-/// Where an aim can only be reached by a throw of another kind, faster and without a window, nothing that was learned holds for it.
+/// More than the farthest aim changes a throw: share of the velocity of the leaving ball.
+constexpr double kOtherThrow = 0.1;
+
+/// Where an aim can only be reached by a throw of another kind, without a window or much faster, nothing that was learned holds
+/// for it.
 bool alike(const Plan& a, const Plan& b) {
   const auto window = [](const Plan& plan) {
     return plan.release_window[1] - plan.release_window[0];
   };
-  return (window(a) > 0) == (window(b) > 0);
+  const Eigen::Vector3d& v_WBall = b.release.v_WBall;
+  return (window(a) > 0) == (window(b) > 0) &&
+         (a.release.v_WBall - v_WBall).norm() < kOtherThrow * v_WBall.norm();
 }
 
 PlanResult planTowards(const Planner& planner,

@@ -46,6 +46,22 @@ TEST_F(AimedPlan, LandsInTheCentreInASetUpWithItsBiases) {
   EXPECT_EQ(limitFault(example_.config, aimed), "");
 }
 
+TEST_F(AimedPlan, StaysWithTheThrowFromWhichItsBiasesWereLearned) {
+  // Here a little higher only a much faster throw, without a window, is left.
+  for (const Eigen::Vector3d& p_WTarget :
+       {Eigen::Vector3d(2.99, -1.97, -0.13), Eigen::Vector3d(2.27, -1.06, 0.49)}) {
+    ThrowRequest request = example_.requestTo(p_WTarget.x(), p_WTarget.y(), p_WTarget.z(), 1);
+    request.strategy = "robust";
+    const auto plan = std::get<Plan>(planner_.plan(request));
+    request.biases << 0, 0, 0, 0, 0, -0.15;
+    const auto aimed = std::get<Plan>(planAimed(planner_, request));
+    EXPECT_LT((aimed.release.v_WBall - plan.release.v_WBall).norm(),
+              0.1 * plan.release.v_WBall.norm());
+    EXPECT_EQ(aimed.release_window[1] > aimed.release_window[0],
+              plan.release_window[1] > plan.release_window[0]);
+  }
+}
+
 TEST_F(AimedPlan, DoesNotFollowAbsurdBiases) {
   model::LandingBiases biases;
   biases << 0, 0, 30, 0, 0, 0;
