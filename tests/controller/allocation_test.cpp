@@ -1,27 +1,8 @@
 // The loop at 1 kHz does not allocate: neither in a swing nor while braking.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "tests/controller/closed_loop.h"
-
-namespace {
-long g_allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "tests/kit/allocation_count.h"
 
 namespace fastball::controller {
 namespace {
@@ -32,14 +13,14 @@ TEST(Allocation, NoneInALoop) {
   ASSERT_TRUE(controller.offerPlan(swingPlan()));
   ASSERT_TRUE(controller.startThrow({1, 1, 600'000}));
   const auto run = [&](int from, int to) {
-    const long before = g_allocations;
+    const long before = kit::allocations();
     for (int i = from; i < to; ++i)
       robot.tick(controller.answer({1000 * i, 1, i, robot.q, robot.qd})->tau);
-    return g_allocations - before;
+    return kit::allocations() - before;
   };
   EXPECT_EQ(run(0, 1000), 0);
   controller.stop("ESTOP: test");
-  EXPECT_GT(g_allocations, 0) << "the counter counts";
+  EXPECT_GT(kit::allocations(), 0) << "the counter counts";
   run(1000, 1001);
   EXPECT_EQ(run(1001, 1500), 0);
 }

@@ -1,27 +1,8 @@
 // The loop at 1 kHz does not allocate: from the grasp to the cleared hand.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "tests/hand_server/scripted_hand.h"
-
-namespace {
-long g_allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "tests/kit/allocation_count.h"
 
 namespace fastball::hand_server {
 namespace {
@@ -36,7 +17,7 @@ void throwWithout(double window) {
   const model::Arm arm = testArm();
   const model::BallParameters& ball = experiment().ball;
   const Eigen::Isometry3d X_TH = testHand().X_TH(plan.q_wrist[0], plan.q_wrist[1]);
-  const long before = g_allocations;
+  const long before = kit::allocations();
   ASSERT_GT(before, 0) << "the counter counts";
   Phase last = Phase::kOpen;
   for (int i = 0; i < 1000; ++i) {
@@ -51,7 +32,7 @@ void throwWithout(double window) {
     last = answer->phase;
     hand.tick(*answer);
   }
-  EXPECT_EQ(g_allocations - before, 0);
+  EXPECT_EQ(kit::allocations() - before, 0);
   EXPECT_EQ(last, Phase::kClear);
 }
 

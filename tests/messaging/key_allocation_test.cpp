@@ -2,27 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
-#include <new>
 
 #include "messaging/command_guard.h"
-
-namespace {
-long g_allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "tests/kit/allocation_count.h"
 
 namespace fastball::messaging {
 namespace {
@@ -35,7 +17,7 @@ TEST(Allocation, NoneBySigningAndChecking) {
   std::array<char, kControlBytes> message{};
   constexpr std::size_t kSize = 89;
   int accepted = 0, repeated = 0, wrong = 0;
-  const long before = g_allocations;
+  const long before = kit::allocations();
   for (int i = 0; i < 1000; ++i) {
     signer.sign("ARM_COMMAND", message.data(), kSize, i);
     const auto fault = [&] { return guard.check(message.data(), kSize + kTrailerBytes, i); };
@@ -44,12 +26,12 @@ TEST(Allocation, NoneBySigningAndChecking) {
     message[7] ^= 1;
     wrong += fault() == Fault::kWrongTag;
   }
-  EXPECT_EQ(g_allocations - before, 0);
+  EXPECT_EQ(kit::allocations() - before, 0);
   EXPECT_EQ(accepted, 1000);
   EXPECT_EQ(repeated, 1000);
   EXPECT_EQ(wrong, 1000);
   EXPECT_FALSE(guard.words().empty());
-  EXPECT_GT(g_allocations, before) << "the counter counts";
+  EXPECT_GT(kit::allocations(), before) << "the counter counts";
 }
 
 }  // namespace
