@@ -1,5 +1,7 @@
 # `cmake --install` and `cpack`: programs and what they read at run time; what one needs to write a process of one's own.
 include(CMakePackageConfigHelpers)
+# What is installed is what `programs` builds; tests need not be there.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/fastball)
 install(EXPORT fastball NAMESPACE fastball:: FILE fastballTargets.cmake DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/fastballConfig.cmake.in ${CMAKE_BINARY_DIR}/fastballConfig.cmake
