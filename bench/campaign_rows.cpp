@@ -1,7 +1,6 @@
 #include "bench/campaign_rows.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <boost/process/args.hpp>
@@ -13,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+
+#include "bench/timing.h"
 
 namespace fastball::bench {
 namespace {
@@ -34,16 +35,6 @@ struct Measured {
   double perMinute() const { return kMinute * throws / wall_s; }
   double cores() const { return cpu_s / wall_s; }
 };
-
-/// Processor time of this program's children that have ended [s].
-double childrenCpu() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 Measured campaign(int throws, int jobs, bool images) {
   const fs::path folder =

@@ -1,7 +1,6 @@
 #include "bench/report_rows.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,16 +29,6 @@ void fastball(const std::vector<std::string>& arguments) {
   if (status != 0)
     throw std::runtime_error(fmt::format("the measured fastball {} ended with exit status {}",
                                          arguments.front(), status));
-}
-
-/// Processor time of this program's children that have ended, and of theirs [s].
-double childrenCpu() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 Row tenThrows() {

@@ -1,5 +1,7 @@
 #include "bench/timing.h"
 
+#include <sys/resource.h>
+
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -51,6 +53,15 @@ double cpuSecondsPerCall(const std::string& id, const std::function<void()>& cal
 
 std::string privateLcmUrl() {
   return fmt::format("udpm://239.255.76.67:{}?ttl=0", kFirstPort + getpid() % kPorts);
+}
+
+double childrenCpu() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace fastball::bench

@@ -13,4 +13,7 @@ double cpuSecondsPerCall(const std::string& id, const std::function<void()>& cal
 /// A URL on a port of its own, so that the measurement disturbs nobody on this machine.
 std::string privateLcmUrl();
 
+/// Processor time of this program's children that have ended, and of theirs [s].
+double childrenCpu();
+
 }  // namespace fastball::bench
