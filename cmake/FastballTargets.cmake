@@ -30,12 +30,29 @@ function(fastball_settings target)
   endif()
 endfunction()
 
+# fastball_headers(name LIBRARIES ... HEADERS ...): headers that are read once for all targets that name it in
+# fastball_precompiled(). The build type Debug does without, and so finds what a file forgets to include.
+function(fastball_headers name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
+  file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  fastball_settings(${name})
+endfunction()
+function(fastball_precompiled target headers)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL Debug AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+  endif()
+endfunction()
+
 # fastball_library(name SOURCES ... LIBRARIES ...): a static library, PUBLIC dependencies.
 function(fastball_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC ${ARG_LIBRARIES})
   fastball_settings(${name})
+  fastball_precompiled(${name} fastball_library_headers)
 endfunction()
 
 # fastball_program(name SOURCES ... LIBRARIES ...): an executable in build/bin, part of the target `programs`.
@@ -45,6 +62,9 @@ function(fastball_program name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
   fastball_settings(${name})
+  fastball_precompiled(${name} fastball_program_headers)
+  # Commands and main programs; what must be fast is in libraries.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   add_dependencies(programs ${name})
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
@@ -68,7 +88,7 @@ function(fastball_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   fastball_settings(${name})
-  target_precompile_headers(${name} REUSE_FROM fastball_test_headers)
+  fastball_precompiled(${name} fastball_test_headers)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE
     FASTBALL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" FASTBALL_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
