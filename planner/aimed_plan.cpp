@@ -14,14 +14,17 @@ constexpr double kFarthestAim = 0.3;
 /// More than the farthest aim changes a throw: share of the velocity of the leaving ball.
 constexpr double kOtherThrow = 0.1;
 
+/// [s], shorter is no release window: a plan without one names how well it knows the time of the release.
+constexpr double kShortestWindow = 0.005;
+
 /// Where an aim can only be reached by a throw of another kind, without a window or much faster, nothing that was learned holds
 /// for it.
 bool alike(const Plan& a, const Plan& b) {
   const auto window = [](const Plan& plan) {
-    return plan.release_window[1] - plan.release_window[0];
+    return plan.release_window[1] - plan.release_window[0] >= kShortestWindow;
   };
   const Eigen::Vector3d& v_WBall = b.release.v_WBall;
-  return (window(a) > 0) == (window(b) > 0) &&
+  return window(a) == window(b) &&
          (a.release.v_WBall - v_WBall).norm() < kOtherThrow * v_WBall.norm();
 }
 
