@@ -12,7 +12,7 @@ namespace fastball::bench {
 namespace {
 
 constexpr double kHold =
-    0.45;  // [s], from the scene's start until the swing begins: the feeder lets go at 0.4 s
+    0.55;  // [s], from the scene's start until the swing begins: the hand has tried to open by then
 constexpr double kPatience = 0.2;  // [s] after the command, then the ball should be gone
 constexpr int64_t kTickUs = 1000;
 constexpr int64_t kSceneUs = 10'000'000;  // between the starts of two scenes
@@ -29,6 +29,7 @@ hand_server::HandPlan fromSwing(const planner::Plan& plan) {
   result.window = plan.release_window[1] - plan.release_window[0];
   result.grip_force = plan.grip_force;
   result.q_wrist = {plan.wrist_roll, plan.wrist_flexion};
+  result.adapts = plan.strategy == "tactile";
   result.arm = model::SampledTrajectory(
       dt, std::vector<model::ArmMotion>(samples.begin() + first, samples.end()));
   return result;
@@ -108,6 +109,7 @@ FeltThrow FeltThrows::run(hand_server::HandController& hand,
         thrown.felt_departure =
             1e-6 * static_cast<double>(event->utime - kSceneUs * scene_id) - t_command;
       thrown.felt_lay = event->grip;
+      thrown.felt_dead_times = event->dead_times;
       thrown.predicted_departure =
           1e-6 * static_cast<double>(event->predicted_utime - kSceneUs * scene_id) - t_command;
     }

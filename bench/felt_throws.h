@@ -23,7 +23,8 @@ struct FeltThrow {
   double predicted_departure = 0;  ///< as the hand says that has learned from the throws before
   hand_server::GripEstimate lay;   ///< true, when the swing began
   std::optional<hand_server::GripEstimate> felt_lay;
-  double last_touch = 0;  ///< of the last state that feels the ball
+  std::optional<hand_server::DeadTimes> felt_dead_times;  ///< if the plan adapts
+  double last_touch = 0;                                  ///< of the last state that feels the ball
 };
 
 /// Throws of the default experiment from the grasp to the departure, with the hand server's fingers and the simulator's sensors.

@@ -5,6 +5,20 @@
 
 namespace fastball::hand_server {
 
+namespace {
+
+TrialSettings readTrial(config::Section trial) {
+  TrialSettings result;
+  result.begin = trial.number("begin", config::kNonNegative);
+  result.share = trial.number("share", {0.01, 0.6});
+  result.duration = trial.number("duration", {0.01, 0.07});
+  result.longest = trial.number("longest", {0.001, 0.05});
+  trial.finish();
+  return result;
+}
+
+}  // namespace
+
 HandServerConfig loadConfig(const std::string& path) {
   config::Section section = config::processSection(path, "hand_server");
   HandServerConfig result;
@@ -16,6 +30,7 @@ HandServerConfig loadConfig(const std::string& path) {
   result.grasp_time = section.number("grasp_time", config::kPositive);
   result.settle_time = section.number("settle_time", config::kNonNegative);
   result.settle_constant = section.number("settle_constant", {0.005, 1});
+  result.trial = readTrial(section.section("trial"));
   result.clear_delay = section.number("clear_delay", config::kPositive);
   result.force_noise = section.number("force_noise", {0, 1});
   result.force_delay = section.number("force_delay", {0, 0.02});

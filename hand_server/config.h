@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "hand_server/opening_trial.h"
 #include "model/release_motion.h"
 
 namespace fastball::hand_server {
@@ -21,6 +22,7 @@ struct HandServerConfig {
   double grasp_time = 0;       ///< [s], to close the fingers on the ball
   double settle_time = 0;      ///< [s], then the fingers even out their forces
   double settle_constant = 0;  ///< [s], how fast they do
+  TrialSettings trial;         ///< of the opening, before the swing
   double clear_delay = 0;      ///< [s], after the release the fingers open at the latest
   double force_noise = 0;      ///< [N], standard deviation of the fingertips' force sensors
   double force_delay = 0;      ///< [s], from a force to its reading

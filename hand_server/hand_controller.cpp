@@ -119,6 +119,8 @@ void HandController::keep(const std::string& reason) {
     notice_ = reason;
   }
   kept_ = true;
+  if (preparation_)
+    preparation_->end();
 }
 
 void HandController::watchArm(int64_t scene_id, int64_t utime, const Eigen::Vector4d& q) {
@@ -137,6 +139,7 @@ void HandController::watchArm(int64_t scene_id, int64_t utime, const Eigen::Vect
 void HandController::beginScene(const HandSample& sample) {
   scene_ = sample.scene_id;
   run_.reset();
+  preparation_.reset();
   if (!refused_) {
     notice_.clear();
   }
@@ -166,15 +169,13 @@ void HandController::beginThrow(const HandSample& sample) {
   }
   run_ = next_;
   run_order_ = order;
-  grasp_utime_ = sample.utime;
   phase_ = Phase::kGrasp;
-  grip_checked_ = false;
+  prepared_ = false;
   X_TH_ = hand_.X_TH(run_->plan.q_wrist[0], run_->plan.q_wrist[1]);
   path_ = model::JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
   push_end_ = {};
-  grip_feeling_ = {};
   grip_.reset();
-  settling_ = GripSettling(run_->geometry, ball_, hand_.parameters(), config_.settle_constant);
+  preparation_.emplace(*run_, hand_, ball_, config_, sample.utime);
 }
 
 double HandController::planTime(int64_t utime) const {
@@ -196,7 +197,32 @@ bool HandController::mustRelease(int64_t utime) {
   // In a window the moment does not matter.
   const bool shifted = run_->plan.adapts && !config_.release.isWindow(run_->plan.window);
   const double shift = shifted ? delay_.commandShift(releaseMode(), config_.command_shift_max) : 0;
-  return utime >= run_order_.start_utime + microseconds(run_->plan.t_release_command + shift);
+  // Felt dead times do not end with a tick: the nearest one.
+  const double early = deadTimes() ? deadTime() + kHalfTick : 0;
+  return planTime(utime) >= run_->plan.t_swing &&
+         utime >=
+             run_order_.start_utime + microseconds(run_->plan.t_release_command + shift - early);
+}
+
+/// As felt before the swing.
+std::optional<DeadTimes> HandController::deadTimes() const {
+  return preparation_ ? preparation_->deadTimes() : std::nullopt;
+}
+
+/// [s], of the finger that obeys last; 0 if it is not known.
+double HandController::deadTime() const {
+  const auto felt = deadTimes();
+  return felt ? *std::max_element(felt->begin(), felt->end()) : 0;
+}
+
+/// All fingers shall obey when the last one does.
+model::FingerTimes HandController::fingerTimes() const {
+  model::FingerTimes later{};
+  if (const auto felt = deadTimes()) {
+    for (std::size_t i = 0; i < later.size(); ++i)
+      later[i] = microseconds(deadTime() - (*felt)[i]);
+  }
+  return later;
 }
 
 /// Eq. (24) at time t [s] of the plan, near the planned release only.
@@ -219,8 +245,10 @@ bool HandController::pushHasEnded(double t) {
 void HandController::beginRelease(const HandSample& sample, ReleaseBy reason) {
   phase_ = Phase::kRelease;
   release_utime_ = sample.utime;
-  release_ = model::ReleaseMotion(hand_, settling_.settled(), config_.release, releaseMode());
-  predicted_utime_ = sample.utime + microseconds(plannedDelay() + delay_.correction(releaseMode()));
+  release_ = model::ReleaseMotion(hand_, preparation_->settled(), config_.release, releaseMode(),
+                                  fingerTimes());
+  predicted_utime_ =
+      sample.utime + microseconds(plannedDelay() + deadTime() + delay_.correction(releaseMode()));
   commanded_ = {sample.utime,
                 run_->plan.id,
                 ReleaseEvent::Kind::kCommanded,
@@ -228,30 +256,22 @@ void HandController::beginRelease(const HandSample& sample, ReleaseBy reason) {
                 run_order_.start_utime + microseconds(run_->plan.t_release_command),
                 predicted_utime_,
                 sample.force,
-                grip_};
+                grip_,
+                deadTimes()};
 }
 
-void HandController::settleGrip(const HandSample& sample) {
-  const double closed =
-      1e-6 * static_cast<double>(sample.utime - grasp_utime_) - config_.grasp_time;
-  if (phase_ <= Phase::kHold && closed < config_.settle_time) {
-    settling_.step(sample.force, closed < 0,
-                   1e-6 * static_cast<double>(sample.utime - last_.utime));
-  }
-}
-
-/// Says once, when the swing begins, if the thumb does not feel the grip it should have.
-void HandController::checkGrip(const HandSample& sample) {
-  if (grip_checked_) {
+/// Until the swing; says once, when it begins, if the thumb does not feel the grip it should have.
+void HandController::prepareGrip(const HandSample& sample) {
+  const double to_swing = run_->plan.t_swing - planTime(sample.utime);
+  if (prepared_)
+    return;
+  if (to_swing > 0) {
+    preparation_->step(sample, 1e-6 * static_cast<double>(sample.utime - last_.utime), to_swing);
     return;
   }
-  if (planTime(sample.utime) < run_->plan.t_swing) {
-    grip_feeling_.step(sample.q, sample.force,
-                       1e-6 * static_cast<double>(sample.utime - last_.utime));
-    return;
-  }
-  grip_checked_ = true;
-  grip_ = grip_feeling_.estimate(hand_, ball_);
+  prepared_ = true;
+  preparation_->end();
+  grip_ = preparation_->estimate();
   if (sample.force[model::kThumb] < config_.grip_share * run_->plan.grip_force) {
     notice_ = fmt::format("the ball is not gripped: the thumb presses with {:.3g} N of {:.3g} N",
                           sample.force[model::kThumb], run_->plan.grip_force);
@@ -295,7 +315,7 @@ void HandController::watchBall(const HandSample& sample) {
 
 void HandController::sayDeparture(const BallWatch::Departure& departure) {
   if (phase_ >= Phase::kRelease) {
-    delay_.learn(releaseMode(), plannedDelay(),
+    delay_.learn(releaseMode(), plannedDelay() + deadTime(),
                  1e-6 * static_cast<double>(departure.utime - release_utime_));
   }
   departed_ = {departure.utime,
@@ -305,19 +325,19 @@ void HandController::sayDeparture(const BallWatch::Departure& departure) {
                run_order_.start_utime + microseconds(run_->plan.t_release),
                phase_ >= Phase::kRelease ? predicted_utime_ : departure.utime,
                departure.force,
-               grip_};
+               grip_,
+               deadTimes()};
 }
 
 void HandController::advancePhase(const HandSample& sample) {
   if (!run_) {
     return;
   }
-  settleGrip(sample);
   if (phase_ == Phase::kGrasp && path_.done(sample.utime)) {
     phase_ = Phase::kHold;
   }
   if (!kept_ && phase_ <= Phase::kHold) {
-    checkGrip(sample);
+    prepareGrip(sample);
     watchSlip(sample);
     if (mustRelease(sample.utime)) {
       beginRelease(sample, config_.release_by);
@@ -355,8 +375,8 @@ void HandController::command(const HandSample& sample) {
       answer_.tau.segment<2>(model::Hand::proximalJoint(finger)) *= pressure(finger, point.q);
     }
   }
-  if (phase_ == Phase::kGrasp || phase_ == Phase::kHold) {
-    settling_.apply(answer_.q);
+  if (preparation_ && (phase_ == Phase::kGrasp || phase_ == Phase::kHold)) {
+    preparation_->apply(sample.utime, answer_);
   }
   if (phase_ >= Phase::kRelease) {
     release_.step(sample.utime - release_utime_, sample.q, sample.qd, sample.force, answer_);

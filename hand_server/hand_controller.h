@@ -7,9 +7,9 @@
 
 #include "hand_server/ball_watch.h"
 #include "hand_server/config.h"
-#include "hand_server/grip_estimate.h"
-#include "hand_server/grip_settling.h"
+#include "hand_server/grip_preparation.h"
 #include "hand_server/hand_plan.h"
+#include "hand_server/hand_sample.h"
 #include "hand_server/release_condition.h"
 #include "hand_server/release_delay.h"
 #include "hand_server/slip_watch.h"
@@ -22,18 +22,6 @@ namespace fastball::hand_server {
 
 /// What the hand is doing; the codes are those of HAND_COMMAND.
 enum class Phase : int8_t { kOpen = 0, kGrasp = 1, kHold = 2, kRelease = 3, kClear = 4 };
-
-/// One measured state of the hand.
-struct HandSample {
-  int64_t utime = 0;  ///< [us], simulated
-  int64_t scene_id = 0;
-  int64_t tick = 0;                                  ///< since the start of the scene
-  model::HandVector q = model::HandVector::Zero();   ///< [rad]
-  model::HandVector qd = model::HandVector::Zero();  ///< [rad/s]
-  FingerForces force{};                              ///< [N], normal, mean over the tick before
-  TangentialForces tangential{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-                              Eigen::Vector2d::Zero()};  ///< [N], mean over the tick before
-};
 
 /// What the hand's servo shall do until the next state.
 struct HandAnswer : model::JointTargets {
@@ -59,7 +47,8 @@ struct ReleaseEvent {
   int64_t predicted_utime =
       0;                 ///< [us], of the departure, by what the hand has learned of its delay
   FingerForces force{};  ///< [N]
-  std::optional<GripEstimate> grip;  ///< how the ball lay in the hand before the swing
+  std::optional<GripEstimate> grip;     ///< how the ball lay in the hand before the swing
+  std::optional<DeadTimes> dead_times;  ///< of the fingers, felt before the swing
 };
 
 /// The three fingers through a throw (section 3.1): open; grasp at once in the scene of an ordered throw; hold; release, in the
@@ -114,13 +103,15 @@ class HandController {
   bool mustRelease(int64_t utime);
   bool pushHasEnded(double t);
   void beginRelease(const HandSample& sample, ReleaseBy reason);
-  void settleGrip(const HandSample& sample);
-  void checkGrip(const HandSample& sample);
+  void prepareGrip(const HandSample& sample);
   void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
   model::ReleaseMode releaseMode() const;
   double plannedDelay() const;
+  std::optional<DeadTimes> deadTimes() const;
+  double deadTime() const;
+  model::FingerTimes fingerTimes() const;
   void sayDeparture(const BallWatch::Departure& departure);
   double pressure(model::Finger finger, const model::HandVector& q) const;
   double planTime(int64_t utime) const;
@@ -144,12 +135,11 @@ class HandController {
   Eigen::Isometry3d X_TH_ = Eigen::Isometry3d::Identity();
   Phase phase_ = Phase::kOpen;
   bool kept_ = false;
-  bool grip_checked_ = false;
-  int64_t grasp_utime_ = 0, release_utime_ = 0, predicted_utime_ = 0;
+  bool prepared_ = false;  ///< the swing has begun
+  int64_t release_utime_ = 0, predicted_utime_ = 0;
   model::JointPath path_;
-  GripSettling settling_;
-  GripFeeling grip_feeling_;
-  std::optional<GripEstimate> grip_;  ///< before the swing
+  std::optional<GripPreparation> preparation_;  ///< of run_
+  std::optional<GripEstimate> grip_;            ///< before the swing
   model::ReleaseMotion release_;
   PushEnd push_end_;
   BallWatch ball_watch_;

@@ -169,6 +169,8 @@ class HandServerNode : public messaging::Node {
       std::copy_n(event.grip->p_HBall.data(), 2, message.p_HBall);
       message.youngs_modulus = event.grip->youngs_modulus;
     }
+    if (event.dead_times)
+      std::copy_n(event.dead_times->begin(), model::kFingers, message.dead_time);
     std::copy_n(event.force.begin(), model::kFingers, message.f_normal);
     releases_.publish(message);
   }

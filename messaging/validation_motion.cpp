@@ -194,6 +194,7 @@ std::optional<std::string> fault(const release_t& m) {
       .positiveOrZero("grip_force", m.grip_force)
       .finite("p_HBall", m.p_HBall)
       .positiveOrZero("youngs_modulus", m.youngs_modulus)
+      .positiveOrZero("dead_time", m.dead_time)
       .fault();
 }
 

@@ -45,6 +45,14 @@ class Hand {
                                const Eigen::Vector3d& force_H) const;
   /// First joint index of a finger's flexion (proximal); the distal one follows, a spread joint precedes it.
   static int proximalJoint(Finger finger);
+  /// A finger's joints: those of its flexion and, before them, a spread joint if it has one.
+  struct JointRange {
+    int first, joints;
+  };
+  static JointRange jointsOf(Finger finger) {
+    const int spread = finger == kThumb ? 0 : 1;
+    return {proximalJoint(finger) - spread, 2 + spread};
+  }
 
  private:
   HandParameters parameters_;

@@ -50,30 +50,36 @@ double ReleaseSettings::delayOf(ReleaseMode mode) const {
 ReleaseMotion::ReleaseMotion(const Hand& hand,
                              const GraspGeometry& grasp,
                              const ReleaseSettings& settings,
-                             ReleaseMode mode)
+                             ReleaseMode mode,
+                             const FingerTimes& later_us)
     : mode_(mode),
       settings_(settings),
-      base_radius_(hand.parameters().base_radius),
-      proximal_length_(hand.parameters().proximal_length),
-      distance_(grasp.distances()),
-      q_grasp_(grasp.q),
-      tau_grasp_(grasp.torques()),
+      later_us_(later_us),
+      retreat_(hand, grasp),
       q_open_(
           hand.posture(0,
                        0,
                        {settings.open_distance, settings.open_distance, settings.open_distance})),
-      thumb_(settings.thumb, hand.parameters().finger_torque_max) {
-  for (const Finger finger : kEachFinger)
-    deformation_[finger] = grasp.fingers[finger].deformation;
-}
+      thumb_(settings.thumb, hand.parameters().finger_torque_max) {}
 
 void ReleaseMotion::open(int64_t t_us) {
   if (open_us_)
     return;
   JointTargets at;
-  relax(1e-6 * static_cast<double>(t_us), at);
+  at.q = retreat_.q_grasp();
+  for (const Finger finger : kEachFinger)
+    relax(finger, t_us, at);
   path_ = JointPath(at.q, q_open_, t_us, settings_.clear_time);
   open_us_ = t_us;
+}
+
+bool ReleaseMotion::thumbMustOpen(int64_t t_us, const FingerForces& force) const {
+  const int64_t own_us = ownTime(kThumb, t_us);
+  if (smooth()) {
+    const bool lost = *std::min_element(force.begin(), force.end()) < settings_.touch_force;
+    return (t_us > 0 && lost) || (open_us_ && own_us >= *open_us_);
+  }
+  return own_us >= 0;
 }
 
 void ReleaseMotion::step(int64_t t_us,
@@ -83,19 +89,20 @@ void ReleaseMotion::step(int64_t t_us,
                          JointTargets& targets) {
   constexpr int kJoints = kHandJoints - kSpreadA;
   if (smooth() && t_us >= microseconds(settings_.relax_time + settings_.open_delay))
-    open(t_us);
+    open(microseconds(settings_.relax_time + settings_.open_delay));
   JointTargets own;
+  own.q = retreat_.q_grasp();
+  own.tau = retreat_.tau_grasp();
   own.kp = settings_.kp;
   own.kd = settings_.kd;
-  if (open_us_) {
-    const JointPath::Point point = path_.at(t_us);
-    own.q = point.q;
-    own.qd = point.qd;
-  } else {
-    relax(1e-6 * static_cast<double>(t_us), own);
+  for (const Finger finger : kEachFinger) {
+    const int64_t own_us = ownTime(finger, t_us);
+    if (open_us_ && own_us >= *open_us_)
+      follow(finger, own_us, own);
+    else
+      relax(finger, own_us, own);
   }
-  const bool lost = *std::min_element(force.begin(), force.end()) < settings_.touch_force;
-  thumb_opens_ = thumb_opens_ || !smooth() || open_us_ || (t_us > 0 && lost);
+  thumb_opens_ = thumb_opens_ || thumbMustOpen(t_us, force);
   if (thumb_opens_)
     openThumb(t_us, q, qd, own);
   targets.q.tail<kJoints>() = own.q.tail<kJoints>();
@@ -105,33 +112,26 @@ void ReleaseMotion::step(int64_t t_us,
   targets.kd.tail<kJoints>() = own.kd.tail<kJoints>();
 }
 
-/// Of the fingers that still hold, t [s] after the command.
-void ReleaseMotion::relax(double t, JointTargets& targets) const {
-  const double s = t / settings_.relax_time;
-  targets.q = q_grasp_;
-  targets.qd.setZero();
-  targets.tau = tau_grasp_;
-  if (mode_ == ReleaseMode::kThumbFade) {
+/// Of one that still holds, at its own time [us].
+void ReleaseMotion::relax(Finger finger, int64_t own_us, JointTargets& targets) const {
+  const double s = 1e-6 * static_cast<double>(own_us) / settings_.relax_time;
+  if (mode_ == ReleaseMode::kSyncRetreat) {
+    retreat_.tell(finger, settings_.retreat_ratio * smoothStep(s),
+                  settings_.retreat_ratio * smoothStepRate(s) / settings_.relax_time, targets);
+  } else if (mode_ == ReleaseMode::kThumbFade && finger == kThumb && own_us >= 0) {
     const double left = 1 - smoothStep(s);
     targets.tau.segment<2>(kProximalThumb) *= left * left;
     targets.kp[kProximalThumb] = targets.kd[kProximalThumb] = 0;  // nothing but its force
   }
-  if (mode_ != ReleaseMode::kSyncRetreat)
-    return;
-  const double way = settings_.retreat_ratio * smoothStep(s);
-  const double rate = settings_.retreat_ratio * smoothStepRate(s) / settings_.relax_time;
-  const double left = std::max(0.0, 1 - way);
-  targets.tau *= left * left;
-  for (const Finger finger : kEachFinger) {
-    // As Hand::parallelFinger(): the distal phalanx stays parallel to z.
-    const double inward =
-        (base_radius_ - distance_[finger] - way * deformation_[finger]) / proximal_length_;
-    const double angle = std::asin(std::clamp(inward, -1.0, 1.0));
-    const double turning = -rate * deformation_[finger] / (proximal_length_ * std::cos(angle));
-    const int proximal = Hand::proximalJoint(finger);
-    targets.q.segment<2>(proximal) << angle, -angle;
-    targets.qd.segment<2>(proximal) << turning, -turning;
-  }
+}
+
+/// Of one that opens, at its own time [us].
+void ReleaseMotion::follow(Finger finger, int64_t own_us, JointTargets& targets) const {
+  const JointPath::Point point = path_.at(own_us);
+  const auto [first, joints] = Hand::jointsOf(finger);
+  targets.q.segment(first, joints) = point.q.segment(first, joints);
+  targets.qd.segment(first, joints) = point.qd.segment(first, joints);
+  targets.tau.segment(first, joints).setZero();
 }
 
 void ReleaseMotion::openThumb(int64_t t_us,
@@ -144,7 +144,7 @@ void ReleaseMotion::openThumb(int64_t t_us,
   targets.tau[kProximalThumb] = drive.tau;
   targets.kp[kProximalThumb] = drive.guided ? settings_.kp[kProximalThumb] : 0;
   targets.kd[kProximalThumb] = drive.guided ? settings_.kd[kProximalThumb] : 0;
-  targets.q[kDistalThumb] = q_grasp_[kDistalThumb];
+  targets.q[kDistalThumb] = retreat_.q_grasp()[kDistalThumb];
   targets.qd[kDistalThumb] = targets.tau[kDistalThumb] = 0;
 }
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "model/finger_retreat.h"
 #include "model/grasp.h"
 #include "model/hand.h"
 #include "model/joint_path.h"
+#include "model/joint_targets.h"
 #include "model/thumb_opening.h"
 
 namespace fastball::model {
@@ -48,21 +50,13 @@ struct ReleaseSettings {
 /// [N], normal: finger A, thumb, finger B.
 using FingerForces = std::array<double, kFingers>;
 
-/// What the hand's servo is told, one entry a joint.
-struct JointTargets {
-  HandVector q = HandVector::Zero();    ///< [rad]
-  HandVector qd = HandVector::Zero();   ///< [rad/s]
-  HandVector tau = HandVector::Zero();  ///< [N m], feed-forward
-  HandVector kp = HandVector::Zero();   ///< [N m/rad]
-  HandVector kd = HandVector::Zero();   ///< [N m s/rad]
-};
+/// How much later than the command [us] each finger is told what to do, so that all obey at once though their dead times differ.
+using FingerTimes = std::array<int64_t, kFingers>;
 
-/// The fingers' targets from the command to let go to the open hand. The retreat goes along S, the quintic from 0 to 1 in the
-/// relaxation time Tr:
-///     distance of a finger from the axis  d = d_grasp + ratio y S,      its pressing torque  tau_grasp max(0, 1 - ratio S)^2,
-/// with y the ball's deformation, so that all fingers let go at once whatever the ball's stiffness; the thumb's force alone fades
-/// as (1 - S)^2. The thumb, towards which the ball flies, opens as soon as one finger feels the ball no more: then no finger
-/// presses on it to speak of. The others open after the relaxation. No function allocates.
+/// The fingers' targets from the command to let go to the open hand. The retreat goes by FingerRetreat along the way ratio S, S the
+/// quintic from 0 to 1 in the relaxation time; the thumb's force alone fades as (1 - S)^2. The thumb, towards which the ball
+/// flies, opens as soon as one finger feels the ball no more: then no finger presses on it to speak of. The others open after
+/// the relaxation. No function allocates.
 class ReleaseMotion {
  public:
   ReleaseMotion() = default;
@@ -70,7 +64,8 @@ class ReleaseMotion {
   ReleaseMotion(const Hand& hand,
                 const GraspGeometry& grasp,
                 const ReleaseSettings& settings,
-                ReleaseMode mode);
+                ReleaseMode mode,
+                const FingerTimes& later_us = {});
 
   /// Targets of all finger joints for the tick that begins t_us [us] after the command; the wrist's are left alone.
   /// @param q [rad], qd [rad/s] measured; @param force [N], normal, of each finger through the last tick. Call once a tick.
@@ -85,20 +80,23 @@ class ReleaseMotion {
   ReleaseMode mode() const { return mode_; }
 
  private:
-  void relax(double t, JointTargets& targets) const;
+  /// [us], of a finger's own motion at t_us [us] after the command.
+  int64_t ownTime(Finger finger, int64_t t_us) const { return t_us - later_us_[finger]; }
+  bool thumbMustOpen(int64_t t_us, const FingerForces& force) const;
+  void relax(Finger finger, int64_t own_us, JointTargets& targets) const;
+  void follow(Finger finger, int64_t own_us, JointTargets& targets) const;
   void openThumb(int64_t t_us, const HandVector& q, const HandVector& qd, JointTargets& targets);
   bool smooth() const { return mode_ != ReleaseMode::kAbrupt; }
 
   ReleaseMode mode_ = ReleaseMode::kAbrupt;
   ReleaseSettings settings_;
-  double base_radius_ = 0, proximal_length_ = 1;
-  std::array<double, kFingers> distance_{}, deformation_{};  ///< [m], of the grasp
-  HandVector q_grasp_ = HandVector::Zero(), tau_grasp_ = HandVector::Zero();
+  FingerTimes later_us_{};
+  FingerRetreat retreat_;
   HandVector q_open_ = HandVector::Zero();
   ThumbOpening thumb_;
   bool thumb_opens_ = false;
-  std::optional<int64_t> open_us_;
-  JointPath path_;  ///< of the open fingers
+  std::optional<int64_t> open_us_;  ///< in each finger's own time
+  JointPath path_;                  ///< of the open fingers
 };
 
 /// Quintic from 0 at s = 0 to 1 at s = 1, at rest with no acceleration at both ends.

@@ -37,6 +37,7 @@ enum class ThrowKind {
   kWindow,     ///< a release window
   kHeldSwing,  ///< the kinetic chain, joint 2 held
   kFreeSwing,  ///< the kinetic chain with joint 2
+  kFlatSwing,  ///< the same with the shortest flight instead of the greatest speed
 };
 
 /// Decision variables of a window throw or of a swing.

@@ -38,8 +38,11 @@ class Builder {
     }
     // The fastest throws with joint 2 are lobs, which do not come through a ring that does not quite face the robot.
     const double steepness = SwingTask().steepness;
-    addSwings(Shoulder::kFree, {{0, steepness}, {1, kFlatter}}, facing, everywhere);
-    addSwings(Shoulder::kHeld, {{0, steepness}, {2, steepness}}, facing, everywhere);
+    const SwingGoal fastest = SwingGoal::kFastest;
+    addSwings(Shoulder::kFree, fastest, {{0, steepness}, {1, kFlatter}}, facing, everywhere);
+    addSwings(Shoulder::kHeld, fastest, {{0, steepness}, {2, steepness}}, facing, everywhere);
+    addSwings(Shoulder::kFree, SwingGoal::kShortestFlight, {{0, steepness}, {1, steepness}}, facing,
+              everywhere);
     return Atlas(grid_, std::move(layers_));
   }
 
@@ -50,12 +53,14 @@ class Builder {
     double steepness;
   };
   void addSwings(Shoulder shoulder,
+                 SwingGoal goal,
                  const std::vector<Family>& families,
                  const Eigen::Vector3d& facing,
                  const std::vector<bool>& wanted) {
     std::vector<std::unique_ptr<ThrowSource>> sources;
     for (const Family& family : families)
-      sources.push_back(swingThrows(config_, shoulder, 2 * family.start, facing, family.steepness));
+      sources.push_back(
+          swingThrows(config_, shoulder, goal, 2 * family.start, facing, family.steepness));
     addLayers(sources, wanted);
   }
 
@@ -66,7 +71,7 @@ class Builder {
     layers_.resize(before + sources.size());
     std::vector<std::atomic<double>> shares(sources.size());
     const std::thread::id this_thread = std::this_thread::get_id();
-    const double stages = static_cast<double>(config_.robust.window_lengths.size()) + 2;
+    const double stages = static_cast<double>(config_.robust.window_lengths.size()) + 3;
     const auto tell = [&](std::size_t source, double share) {
       shares[source] = share;
       if (!progress_ || std::this_thread::get_id() != this_thread)

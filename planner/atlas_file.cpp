@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kFormat = 3;
-constexpr const char* kKindNames[] = {"window", "held swing", "free swing"};
+constexpr int kFormat = 4;
+constexpr const char* kKindNames[] = {"window", "held swing", "free swing", "flat swing"};
 
 template <typename Derived>
 json toJson(const Eigen::MatrixBase<Derived>& matrix) {

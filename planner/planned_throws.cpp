@@ -219,16 +219,20 @@ class Swings : public PlannedThrows {
   /// @param steepness as SwingTask has it.
   Swings(const PlannerConfig& config,
          Shoulder shoulder,
+         SwingGoal goal,
          int family,
          const Eigen::Vector3d& facing,
          double steepness)
       : PlannedThrows(config, facing),
         planner_(config, arm_, predictor_),
         shoulder_(shoulder),
+        goal_(goal),
         family_(family),
         steepness_(steepness) {}
 
   ThrowKind kind() const override {
+    if (goal_ == SwingGoal::kShortestFlight)
+      return ThrowKind::kFlatSwing;
     return shoulder_ == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing;
   }
 
@@ -276,7 +280,7 @@ class Swings : public PlannedThrows {
                                    const AtlasThrow& near,
                                    double share) const {
     const ThrowRequest request = requestTo(place);
-    SwingTask task = planner_.taskFor(request, shoulder_);
+    SwingTask task = planner_.taskFor(request, shoulder_, goal_);
     task.limit_factor *= share;
     task.steepness = steepness_;
     task.aim = {near.aim.dot(request.target.rightAxis()), near.aim.dot(request.target.upAxis())};
@@ -294,13 +298,15 @@ class Swings : public PlannedThrows {
     entry.x = solution.x;
     entry.elbow_sign = solution.elbow_sign;
     entry.lead = 1e-3 * std::round(1e3 * (t_command - motion.t_zero));
-    entry.cost = -solution.release_speed;
+    entry.cost = goal_ == SwingGoal::kFastest ? -solution.release_speed
+                                              : kFlightWorth * solution.x[kFlightTime];
     note(motion, *prediction, request.target, near.aim, solution.x[kFlightTime], entry);
     return entry;
   }
 
   SwingPlanner planner_;
   Shoulder shoulder_;
+  SwingGoal goal_;
   int family_;
   double steepness_;
 };
@@ -316,10 +322,11 @@ std::unique_ptr<ThrowSource> windowThrows(const PlannerConfig& config,
 
 std::unique_ptr<ThrowSource> swingThrows(const PlannerConfig& config,
                                          Shoulder shoulder,
+                                         SwingGoal goal,
                                          int family,
                                          const Eigen::Vector3d& facing,
                                          double steepness) {
-  return std::make_unique<Swings>(config, shoulder, family, facing, steepness);
+  return std::make_unique<Swings>(config, shoulder, goal, family, facing, steepness);
 }
 
 }  // namespace fastball::planner

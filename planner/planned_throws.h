@@ -20,6 +20,7 @@ std::unique_ptr<ThrowSource> windowThrows(const PlannerConfig& config,
 /// @param steepness as SwingTask has it.
 std::unique_ptr<ThrowSource> swingThrows(const PlannerConfig& config,
                                          Shoulder shoulder,
+                                         SwingGoal goal,
                                          int family,
                                          const Eigen::Vector3d& facing,
                                          double steepness);

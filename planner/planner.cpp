@@ -31,6 +31,14 @@ Eigen::Vector3d facingRobot(const Eigen::Vector3d& p_WTarget) {
   return n.isZero() ? Eigen::Vector3d(-Eigen::Vector3d::UnitX()) : n.normalized();
 }
 
+Shoulder shoulderOf(ThrowKind kind) {
+  return kind == ThrowKind::kHeldSwing ? Shoulder::kHeld : Shoulder::kFree;
+}
+
+SwingGoal goalOf(ThrowKind kind) {
+  return kind == ThrowKind::kFlatSwing ? SwingGoal::kShortestFlight : SwingGoal::kFastest;
+}
+
 }  // namespace
 
 Planner::Planner(const PlannerConfig& config,
@@ -45,9 +53,9 @@ Planner::Planner(const PlannerConfig& config,
       atlas_(std::move(atlas)) {}
 
 std::vector<ThrowKind> Planner::kindsFor(const std::string& strategy) const {
-  // Out of reach of any window: the fastest throw of all.
+  // Out of reach of any window: the one in which errors have the least time to grow.
   if (seeksWindow(strategy))
-    return {ThrowKind::kWindow, ThrowKind::kFreeSwing, ThrowKind::kHeldSwing};
+    return {ThrowKind::kWindow, ThrowKind::kFlatSwing, ThrowKind::kFreeSwing};
   std::vector<ThrowKind> kinds;
   for (const Shoulder shoulder : config_.shoulders)
     kinds.push_back(shoulder == Shoulder::kFree ? ThrowKind::kFreeSwing : ThrowKind::kHeldSwing);
@@ -74,7 +82,8 @@ struct Planner::Candidate {
   }
 };
 
-std::vector<Planner::Candidate> Planner::candidates(const ThrowRequest& request) const {
+std::vector<Planner::Candidate> Planner::candidates(const ThrowRequest& request,
+                                                    const std::vector<ThrowKind>& kinds) const {
   const Eigen::Vector3d& p = request.target.p_WTarget;
   const double azimuth = std::atan2(p.y(), p.x());
   const Eigen::Array4d margin = Eigen::Array4d::Constant(config_.arm.position_margin);
@@ -92,7 +101,7 @@ std::vector<Planner::Candidate> Planner::candidates(const ThrowRequest& request)
   };
   std::vector<Candidate> found;
   int preference = 0;
-  for (const ThrowKind kind : kindsFor(request.strategy)) {
+  for (const ThrowKind kind : kinds) {
     for (const AtlasThrow& ahead : atlas_->near(p.head<2>().norm(), p.z(), kind)) {
       const auto own = candidate(turned(ahead, azimuth), kind, preference);
       const auto other = candidate(turned(mirrored(ahead), azimuth), kind, preference);
@@ -114,16 +123,46 @@ std::optional<Plan> Planner::planNear(const ThrowRequest& request,
                                       const Candidate& candidate) const {
   if (candidate.kind == ThrowKind::kWindow)
     return windows_.planNear(request, candidate.start);
-  return swings_.planNear(
-      request, candidate.start,
-      candidate.kind == ThrowKind::kFreeSwing ? Shoulder::kFree : Shoulder::kHeld);
+  return swings_.planNear(request, candidate.start, shoulderOf(candidate.kind),
+                          goalOf(candidate.kind));
+}
+
+std::optional<Plan> Planner::firstOf(std::vector<Candidate> candidates,
+                                     const ThrowRequest& request) const {
+  candidates.resize(std::min(candidates.size(), kCandidates));
+  for (const Candidate& candidate : candidates) {
+    if (auto plan = planNear(request, candidate))
+      return plan;
+  }
+  return {};
 }
 
 std::optional<Plan> Planner::fromAtlas(const ThrowRequest& request) const {
-  std::vector<Candidate> found = candidates(request);
-  found.resize(std::min(found.size(), kCandidates));
-  for (const Candidate& candidate : found) {
-    if (auto plan = planNear(request, candidate))
+  return firstOf(candidates(request, kindsFor(request.strategy)), request);
+}
+
+std::optional<Plan> Planner::anew(const ThrowRequest& request, ThrowKind kind) const {
+  if (kind == ThrowKind::kWindow) {
+    auto plan = windows_.plan(request, false);
+    return plan ? plan : windows_.plan(request, true);
+  }
+  PlanResult result = swings_.plan(request, {shoulderOf(kind)}, goalOf(kind));
+  if (Plan* plan = std::get_if<Plan>(&result))
+    return std::move(*plan);
+  return {};
+}
+
+std::optional<Plan> Planner::ofBestKind(const ThrowRequest& request) const {
+  if (!seeksWindow(request.strategy))
+    return fromAtlas(request);
+  for (const ThrowKind kind : kindsFor(request.strategy)) {
+    const std::vector<Candidate> found = candidates(request, {kind});
+    if (auto plan = firstOf(found, request))
+      return plan;
+    // The first is the most promising one.
+    if (found.empty() || found.front().promise() == 0)
+      continue;
+    if (auto plan = anew(request, kind))
       return plan;
   }
   return {};
@@ -135,7 +174,7 @@ PlanResult Planner::plan(const ThrowRequest& request) const {
   if (auto fault = requestFault(request, config_))
     return Refusal{*fault};
   if (atlas_) {
-    if (auto plan = fromAtlas(request))
+    if (auto plan = ofBestKind(request))
       return *std::move(plan);
   }
   PlanResult result = planAnew(request);
@@ -147,14 +186,11 @@ PlanResult Planner::plan(const ThrowRequest& request) const {
 PlanResult Planner::planAnew(const ThrowRequest& request) const {
   if (!seeksWindow(request.strategy))
     return swings_.plan(request, config_.shoulders);
-  if (std::optional<Plan> plan = windows_.plan(request, false))
-    return *std::move(plan);
-  PlanResult swing = swings_.plan(request, {Shoulder::kFree});
-  if (std::holds_alternative<Refusal>(swing)) {
-    if (std::optional<Plan> plan = windows_.plan(request, true))
+  for (const ThrowKind kind : {ThrowKind::kWindow, ThrowKind::kFlatSwing}) {
+    if (std::optional<Plan> plan = anew(request, kind))
       return *std::move(plan);
   }
-  return swing;
+  return swings_.plan(request, {Shoulder::kFree});
 }
 
 std::optional<Plan> Planner::nearestPlan(const ThrowRequest& request,

@@ -15,7 +15,7 @@
 namespace fastball::planner {
 
 /// Plans throws. Strategy `paper`: the kinetic chain. Strategy `robust`: through a release window where one is within reach, else
-/// the kinetic chain with joint 2. From an atlas where there is one, else from the stored starts. Answers depend on the request
+/// the kinetic chain with joint 2 and the shortest flight. From an atlas where there is one, else from the stored starts. Answers depend on the request
 /// and the atlas alone.
 class Planner {
  public:
@@ -29,7 +29,7 @@ class Planner {
 
   /// A plan inside all limits on a grid of 0.1 ms whose predicted landing is at the target's centre, or why there is none.
   PlanResult plan(const ThrowRequest& request) const;
-  /// The same from the atlas alone; nothing if no throw in it leads to one in a few steps.
+  /// The same from the atlas alone, of any kind; nothing if no throw in it leads to one in a few steps.
   std::optional<Plan> fromAtlas(const ThrowRequest& request) const;
   const PlannerConfig& config() const { return config_; }
   const model::Arm& arm() const { return arm_; }
@@ -38,7 +38,13 @@ class Planner {
   std::vector<ThrowKind> kindsFor(const std::string& strategy) const;
   struct Candidate;
   /// Throws of the atlas seen from the target's azimuth, the most promising first.
-  std::vector<Candidate> candidates(const ThrowRequest& request) const;
+  std::vector<Candidate> candidates(const ThrowRequest& request,
+                                    const std::vector<ThrowKind>& kinds) const;
+  std::optional<Plan> firstOf(std::vector<Candidate> candidates, const ThrowRequest& request) const;
+  /// From the atlas, or, where that has throws nearby that do not lead to one, from the stored starts: whatever is of a better
+  /// kind comes first.
+  std::optional<Plan> ofBestKind(const ThrowRequest& request) const;
+  std::optional<Plan> anew(const ThrowRequest& request, ThrowKind kind) const;
   std::optional<Plan> planNear(const ThrowRequest& request, const Candidate& candidate) const;
   PlanResult planAnew(const ThrowRequest& request) const;
   Refusal explain(const ThrowRequest& request, const std::string& obstacle) const;

@@ -80,6 +80,7 @@ const ScaledSwing::Values& ScaledSwing::values(const double* u) {
   x_ = parameters(u);
   problem_values_ = problem_.evaluate(x_);
   values_.release_speed = problem_values_.release_speed;
+  values_.flight_time = x_[kFlightTime];
   values_.inequalities = problem_values_.inequalities;
   values_.equalities =
       problem_values_.equalities.segment(ReleaseConditions::kDirectionEqualities, equalityCount());
@@ -96,6 +97,7 @@ const ScaledSwing::Gradients& ScaledSwing::gradients(const double* u) {
   problem_gradients_ = problem_.gradients(x_, problem_values_);
   gradients_.release_speed =
       carried(problem_gradients_.release_speed.transpose().eval(), 0, 1).row(0);
+  gradients_.flight_time = carried(SwingVector::Unit(kFlightTime).transpose().eval(), 0, 1).row(0);
   gradients_.inequalities =
       carried(problem_gradients_.inequalities, 0, static_cast<int>(inequalityCount()));
   gradients_.equalities =

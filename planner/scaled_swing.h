@@ -16,6 +16,7 @@ class ScaledSwing {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   struct Values {
     double release_speed = 0;                  ///< [m/s]
+    double flight_time = 0;                    ///< [s]
     Eigen::VectorXd inequalities, equalities;  ///< of the problem; of the equalities the landing
     bool finite = false;
     /// Largest violation of a constraint.
@@ -25,7 +26,7 @@ class ScaledSwing {
   };
   /// By u.
   struct Gradients {
-    Eigen::RowVectorXd release_speed;
+    Eigen::RowVectorXd release_speed, flight_time;
     Matrix inequalities, equalities;
   };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <nlopt.hpp>
+#include <optional>
 #include <vector>
 
 #include "planner/scaled_swing.h"
@@ -18,6 +19,7 @@ constexpr double kSettled = 5e-6;
 // twice as many if it still breaks a constraint by so much.
 constexpr int kFairChance = 30;
 constexpr double kHandicap = 0.4, kHopeless = 0.03;
+constexpr double kFlightPrice = 3;  // [1/s], in the objective
 // SLSQP creeps where the constraints are much more curved than the speed. A search ends that has not won so much [m/s] in so many
 // looks while it kept the constraints to within `kNearly`.
 constexpr int kPatience = 25;
@@ -30,29 +32,37 @@ constexpr int kRepair = 12;
 constexpr int kProjections = 4;
 constexpr double kProjectable = 0.3, kProjected = 1e-4, kNormalDamping = 1e-9;
 
-/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, or the distance from given variables.
+/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, the time of flight, or the distance from given variables.
 class Objective {
  public:
-  Objective(ScaledSwing& swing, double to_beat) : swing_(swing), to_beat_(to_beat) {}
+  Objective(ScaledSwing& swing, SwingGoal goal, double to_beat)
+      : swing_(swing), goal_(goal), to_beat_(to_beat) {}
   Objective(ScaledSwing& swing, const std::vector<double>& near) : swing_(swing), near_(&near) {}
 
   double value(const double* u, double* gradient) {
-    const double speed = look(u).release_speed;
+    const ScaledSwing::Values& values = look(u);
     const int n = static_cast<int>(swing_.size());
     Eigen::RowVectorXd slope;
-    double result = -0.05 * speed * speed;
+    double result = 0;
     if (near_ != nullptr) {
       slope = Eigen::RowVectorXd::Map(u, n) - Eigen::RowVectorXd::Map(near_->data(), n);
       result = 0.5 * slope.squaredNorm();
-    } else if (gradient != nullptr) {
-      slope = -0.1 * speed * swing_.gradients(u).release_speed;
+    } else if (goal_ == SwingGoal::kFastest) {
+      const double speed = values.release_speed;
+      result = -0.05 * speed * speed;
+      if (gradient != nullptr)
+        slope = -0.1 * speed * swing_.gradients(u).release_speed;
+    } else {
+      result = kFlightPrice * values.flight_time;
+      if (gradient != nullptr)
+        slope = kFlightPrice * swing_.gradients(u).flight_time;
     }
     if (gradient != nullptr)
       Eigen::RowVectorXd::Map(gradient, n) = slope;
     return result;
   }
 
-  /// The best point looked at: the fastest that keeps the constraints, else the one that breaks them least. A search that is ended or
+  /// The best point looked at: of those that keep the constraints the one nearest to the goal, else the one that breaks them least. A search that is ended or
   /// gives up may leave off elsewhere.
   const std::vector<double>& best() const { return best_; }
   double bestViolation() const { return best_violation_; }
@@ -73,20 +83,20 @@ class Objective {
   void remember(const double* u, const ScaledSwing::Values& values) {
     const double violation = std::max(values.violation(), kTolerance);
     const bool better = near_ == nullptr && violation <= kTolerance && best_violation_ <= kTolerance
-                            ? values.release_speed > best_speed_
+                            ? worth(values) > best_worth_
                             : violation < best_violation_;
     if (!better)
       return;
     best_.assign(u, u + swing_.size());
     best_violation_ = violation;
-    best_speed_ = values.release_speed;
+    best_worth_ = worth(values);
   }
   bool creeps(const ScaledSwing::Values& values) {
-    if (values.violation() < kNearly && values.release_speed > won_ + kGain) {
-      won_ = values.release_speed;
+    if (values.violation() < kNearly && (!won_ || worth(values) > *won_ + kGain)) {
+      won_ = worth(values);
       won_at_ = looks_;
     }
-    return won_ > 0 && looks_ > won_at_ + kPatience;
+    return won_ && looks_ > won_at_ + kPatience;
   }
   bool isBeaten(const ScaledSwing::Values& values) const {
     if (to_beat_ == 0 || looks_ < kFairChance)
@@ -95,13 +105,18 @@ class Objective {
            (looks_ > 2 * kFairChance && values.violation() > kHopeless);
   }
 
+  double worth(const ScaledSwing::Values& values) const {
+    return goal_ == SwingGoal::kFastest ? values.release_speed : -kFlightWorth * values.flight_time;
+  }
+
   ScaledSwing& swing_;
-  const std::vector<double>* near_ = nullptr;  ///< null: Eq. (15)
+  SwingGoal goal_ = SwingGoal::kFastest;
+  const std::vector<double>* near_ = nullptr;  ///< null: the goal
   double to_beat_ = 0;                         ///< [m/s]; 0: none
   int looks_ = 0;
   std::vector<double> best_;
-  double best_violation_ = std::numeric_limits<double>::infinity(), best_speed_ = 0;
-  double won_ = 0;  ///< [m/s], the speed when it last rose by the gain
+  double best_violation_ = std::numeric_limits<double>::infinity(), best_worth_ = 0;
+  std::optional<double> won_;  ///< the worth when it last rose by the gain
   int won_at_ = 0;
 };
 
@@ -214,12 +229,13 @@ void repair(ScaledSwing& swing, int max_evaluations, std::vector<double>& u) {
   minimise(swing, wanted, max_evaluations, u);
 }
 
-/// The fastest u, in place.
-void maximiseSpeed(ScaledSwing& swing,
-                   int max_evaluations,
-                   double to_beat,
-                   std::vector<double>& u) {
-  Objective wanted(swing, to_beat);
+/// The u nearest to the goal, in place.
+void pursueGoal(ScaledSwing& swing,
+                SwingGoal goal,
+                int max_evaluations,
+                double to_beat,
+                std::vector<double>& u) {
+  Objective wanted(swing, goal, to_beat);
   minimise(swing, wanted, max_evaluations, u);
   if (!wanted.best().empty() && !(swing.values(u.data()).violation() <= wanted.bestViolation()))
     u = wanted.best();
@@ -261,7 +277,7 @@ SwingSolution optimiseSwing(const SwingTask& task,
   std::vector<double> u = swing.start();
   if (!isFinite(u))
     return unsolved(start, elbow_sign);
-  maximiseSpeed(swing, max_evaluations, to_beat, u);
+  pursueGoal(swing, task.goal, max_evaluations, to_beat, u);
   return solutionAt(problem, swing, u);
 }
 

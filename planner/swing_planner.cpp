@@ -33,6 +33,11 @@ std::vector<SwingSolution> solvedOnes(const std::vector<SwingSolution>& solution
   return solved;
 }
 
+double worthOf(const SwingSolution& solution, SwingGoal goal) {
+  return goal == SwingGoal::kFastest ? solution.release_speed
+                                     : -kFlightWorth * solution.x[kFlightTime];
+}
+
 double azimuthOf(const model::Target& target) {
   return std::atan2(target.p_WTarget.y(), target.p_WTarget.x());
 }
@@ -70,8 +75,12 @@ SwingTask swingTask(const PlannerConfig& config,
   return task;
 }
 
-SwingTask SwingPlanner::taskFor(const ThrowRequest& request, Shoulder shoulder) const {
-  return swingTask(config_, arm_, hand_, request.target, shoulder);
+SwingTask SwingPlanner::taskFor(const ThrowRequest& request,
+                                Shoulder shoulder,
+                                SwingGoal goal) const {
+  SwingTask task = swingTask(config_, arm_, hand_, request.target, shoulder);
+  task.goal = goal;
+  return task;
 }
 
 WholeMotion SwingPlanner::motionOf(const SwingSolution& solution,
@@ -88,7 +97,7 @@ std::vector<SwingSolution> SwingPlanner::solveAll(const SwingTask& task,
   for (const Start& start : starts) {
     solutions.push_back(
         optimiseSwing(task, start.x, start.elbow_sign, config_.max_evaluations, fastest));
-    if (solutions.back().violation < kSolved)
+    if (task.goal == SwingGoal::kFastest && solutions.back().violation < kSolved)
       fastest = std::max(fastest, solutions.back().release_speed);
   }
   return solutions;
@@ -127,13 +136,14 @@ std::vector<SwingSolution> SwingPlanner::solveHarder(const SwingTask& task,
   return solutions;
 }
 
-void SwingPlanner::sortByWorth(std::vector<SwingSolution>& solutions,
+void SwingPlanner::sortByWorth(SwingGoal goal,
+                               std::vector<SwingSolution>& solutions,
                                const ThrowRequest& request) const {
   const auto worth = [&](const SwingSolution& solution) {
     const SwingCurve curve(solution.x, solution.elbow_sign);
     const double approach =
         approachTime(arm_, config_.motion, request.q_arm, curve.at(curve.begin()).q);
-    return solution.release_speed - kApproachPrice * approach;
+    return worthOf(solution, goal) - kApproachPrice * approach;
   };
   std::stable_sort(
       solutions.begin(), solutions.end(),
@@ -183,7 +193,7 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::realise(
     SwingTask task,
     std::vector<SwingSolution> candidates,
     const ThrowRequest& request) const {
-  sortByWorth(candidates, request);
+  sortByWorth(task.goal, candidates, request);
   candidates.resize(std::min(candidates.size(), kCandidates));
   std::string obstacle;
   for (const SwingSolution& candidate : candidates) {
@@ -228,10 +238,11 @@ SwingSolution SwingPlanner::fastest(const ThrowRequest& request, Shoulder should
 }
 
 PlanResult SwingPlanner::plan(const ThrowRequest& request,
-                              const std::vector<Shoulder>& shoulders) const {
+                              const std::vector<Shoulder>& shoulders,
+                              SwingGoal goal) const {
   Refusal refusal;
   for (const Shoulder shoulder : shoulders) {
-    const SwingTask task = taskFor(request, shoulder);
+    const SwingTask task = taskFor(request, shoulder, goal);
     const std::vector<SwingSolution> solutions =
         search(task, request, shoulder == shoulders.back());
     const std::vector<SwingSolution> candidates = solvedOnes(solutions);
@@ -254,10 +265,11 @@ PlanResult SwingPlanner::plan(const ThrowRequest& request,
 
 std::optional<Plan> SwingPlanner::planNear(const ThrowRequest& request,
                                            const AtlasThrow& start,
-                                           Shoulder shoulder) const {
+                                           Shoulder shoulder,
+                                           SwingGoal goal) const {
   const model::Target& target = request.target;
   const AtlasThrow near = start.through(target, config_.arm.gravity);
-  SwingTask task = taskFor(request, shoulder);
+  SwingTask task = taskFor(request, shoulder, goal);
   task.aim = {near.aim.dot(target.rightAxis()), near.aim.dot(target.upAxis())};
   SwingSolution solution;
   solution.x = near.x;

@@ -31,14 +31,17 @@ class SwingPlanner {
                const model::Arm& arm,
                const ReleasePredictor& predictor);
 
-  /// The fastest throw found, or what hinders it.
-  PlanResult plan(const ThrowRequest& request, const std::vector<Shoulder>& shoulders) const;
+  /// The best throw found, or what hinders it.
+  PlanResult plan(const ThrowRequest& request,
+                  const std::vector<Shoulder>& shoulders,
+                  SwingGoal goal = SwingGoal::kFastest) const;
 
   /// A throw that lies near a known one for a target nearby; nothing if a few steps do not lead to it.
   /// @param near seen from the target's azimuth.
   std::optional<Plan> planNear(const ThrowRequest& request,
                                const AtlasThrow& near,
-                               Shoulder shoulder) const;
+                               Shoulder shoulder,
+                               SwingGoal goal = SwingGoal::kFastest) const;
 
   /// A swing whose ball is predicted to land where it shall.
   struct Aimed {
@@ -50,7 +53,9 @@ class SwingPlanner {
   /// @param q_arm where the arm rests; nothing: where the swing begins.
   WholeMotion motionOf(const SwingSolution& solution,
                        const std::optional<Eigen::Vector4d>& q_arm) const;
-  SwingTask taskFor(const ThrowRequest& request, Shoulder shoulder) const;
+  SwingTask taskFor(const ThrowRequest& request,
+                    Shoulder shoulder,
+                    SwingGoal goal = SwingGoal::kFastest) const;
   std::variant<Aimed, Refusal> aim(SwingTask task,
                                    SwingSolution solution,
                                    const ThrowRequest& request) const;
@@ -68,7 +73,9 @@ class SwingPlanner {
   /// A second try for the solutions that are nearest to keeping all constraints.
   std::vector<SwingSolution> solveHarder(const SwingTask& task,
                                          std::vector<SwingSolution> solutions) const;
-  void sortByWorth(std::vector<SwingSolution>& solutions, const ThrowRequest& request) const;
+  void sortByWorth(SwingGoal goal,
+                   std::vector<SwingSolution>& solutions,
+                   const ThrowRequest& request) const;
   /// The best of the solutions made into a throw that keeps all limits, or what hinders it.
   std::variant<Aimed, Refusal> realise(SwingTask task,
                                        std::vector<SwingSolution> candidates,

@@ -97,6 +97,9 @@ class SwingProblem {
   std::vector<Row> rows_;
 };
 
+/// What a second of flight is worth for SwingGoal::kShortestFlight [m/s per s].
+inline constexpr double kFlightWorth = 10;
+
 /// A solved swing.
 struct SwingSolution {
   SwingVector x = SwingVector::Zero();

@@ -18,6 +18,12 @@ enum class Shoulder {
   kFree,  ///< it follows a sin base function of its own
 };
 
+/// Which of the swings that hit is wanted.
+enum class SwingGoal {
+  kFastest,        ///< Eq. (15): greatest speed of the hand
+  kShortestFlight  ///< errors of drag and velocity have the least time to grow
+};
+
 /// How a swing is bounded besides by the arm's own limits.
 struct SwingSettings {
   Shoulder shoulder = Shoulder::kHeld;
@@ -40,6 +46,7 @@ struct SwingTask {
   model::Target target;
   Eigen::Vector2d aim = Eigen::Vector2d::Zero();  ///< [m], plane coordinates of the landing
   SwingSettings settings;
+  SwingGoal goal = SwingGoal::kFastest;
   double limit_factor = 1;  ///< the share of speed and torque limits that may be used
   /// Sine of the angle at which the ball comes through the ring, at least: what is asked, and a little for what the fingers change.
   double steepness = kLeastSteepness + 0.005;

@@ -65,9 +65,7 @@ const HandCommand& HandServo::arrived(const HandCommand& command) {
   for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
     const std::size_t size = underway_.size();
     const HandCommand& old = underway_[(newest_ + size - delay_steps_[finger]) % size];
-    const int proximal = model::Hand::proximalJoint(finger);
-    const int first = finger == model::kThumb ? proximal : proximal - 1;
-    const int joints = proximal + 2 - first;
+    const auto [first, joints] = model::Hand::jointsOf(finger);
     arrived_.q.segment(first, joints) = old.q.segment(first, joints);
     arrived_.qd.segment(first, joints) = old.qd.segment(first, joints);
     arrived_.tau.segment(first, joints) = old.tau.segment(first, joints);

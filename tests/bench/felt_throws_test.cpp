@@ -49,6 +49,22 @@ TEST(FeltThrows, TheHandLearnsItsFingersDeadTime) {
   EXPECT_LT(predicted, 0.5 * planned) << "[s^2]";
 }
 
+TEST(FeltThrows, TheHandFeelsHowLateEachFingerObeys) {
+  const FeltThrows throws(kExperimentFile, "tactile");
+  sim_bullet::Uncertainty uncertainty = unknownBall();
+  using sim_bullet::Error;
+  uncertainty.setUniform(sim_bullet::Uncertainty::kThrow, Error::kOpeningDelay, 0, 0.02);
+  uncertainty.setUniform(sim_bullet::Uncertainty::kThrow, Error::kFingerDelay, 0, 0.005);
+  hand_server::HandController hand = throws.makeHand();
+  for (int seed = 1; seed <= 40; ++seed) {
+    const FeltThrow thrown = throws.run(hand, uncertainty, seed);
+    ASSERT_TRUE(thrown.felt_dead_times) << seed;
+    for (std::size_t i = 0; i < thrown.errors.finger_delay.size(); ++i)
+      EXPECT_NEAR((*thrown.felt_dead_times)[i], thrown.errors.finger_delay[i], 0.6e-3)
+          << "seed " << seed << ", finger " << i;
+  }
+}
+
 TEST(FeltThrows, TheFingersFeelHowTheBallLiesAndHowHardItIs) {
   const FeltThrows throws(kExperimentFile, "robust");
   hand_server::HandController hand = throws.makeHand();

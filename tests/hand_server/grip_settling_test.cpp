@@ -34,13 +34,14 @@ TEST(GripSettling, EachFingerEndsWithItsShareOfTheGrip) {
         force[i] = model::elasticForce(ball, y);
       }
     };
-    for (int k = 0; k < 120; ++k) {
+    for (int k = 0; 1e-3 * k < config.settle_time; ++k) {
       feel();
       settling.step(force, false, 1e-3);
     }
     feel();
     for (int i = 0; i < model::kFingers; ++i)
-      EXPECT_NEAR(force[i], planned.fingers[i].force, 0.05 * planned.fingers[i].force)
+      // A ball of half the stiffness is followed at half the pace.
+      EXPECT_NEAR(force[i], planned.fingers[i].force, 0.15 * planned.fingers[i].force)
           << p_HBall.transpose() << ", E = " << ball.youngs_modulus;
     EXPECT_EQ(settling.settled().q, q);
   }

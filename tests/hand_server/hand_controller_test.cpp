@@ -39,7 +39,7 @@ class HandThrow : public testing::Test {
     const HandAnswer answer = controller_.answer(sample()).value();
     while (const auto event = controller_.takeEvent())
       events_.push_back(*event);
-    hand_.tick(answer);
+    obey(answer);
     ++tick_;
     utime_ += 1000;
     return answer;
@@ -50,6 +50,8 @@ class HandThrow : public testing::Test {
       last = tick();
     return last;
   }
+
+  virtual void obey(const HandAnswer& answer) { hand_.tick(answer); }
 
   HandServerConfig config_ = loadConfig(kExperimentPath);
   HandController controller_{testArm(), testHand(), experiment().ball, config_};
@@ -198,7 +200,9 @@ TEST_F(LearningHand, PredictsTheDelayItHasFelt) {
 }
 
 TEST_F(LearningHand, CommandsEarlierOnlyForAPlanThatAdaptsAndHasNoWindow) {
-  EXPECT_EQ(throwLate(1, true), 500'000);
+  const int64_t first = throwLate(1, true);
+  EXPECT_NEAR(static_cast<double>(first), 500e3, 1e3)
+      << "but for the tick by which the hand is late";
   const int64_t off = events_[1].utime - events_[1].planned_utime;
   EXPECT_GT(off, 3000);
   EXPECT_EQ(throwLate(2, false), 500'000);
@@ -214,6 +218,66 @@ TEST_F(LearningHand, ShiftsNoCommandByMoreThanTheLimit) {
   for (int number = 1; number <= 5; ++number)
     throwLate(number, true);
   EXPECT_EQ(throwLate(6, true), 499'000);
+}
+
+/// Fingers that obey some ticks late.
+class LateHand : public HandThrow {
+ protected:
+  void throwWith(const std::array<int, model::kFingers>& late, bool adapts, double window) {
+    late_ = late;
+    HandPlan plan = throwPlan(1, window);
+    plan.adapts = adapts;
+    ASSERT_TRUE(controller_.offerPlan(plan));
+    ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
+    run(1200);
+    ASSERT_FALSE(events_.empty());
+  }
+  void obey(const HandAnswer& answer) override {
+    told_.push_back(answer);
+    HandAnswer arrived = answer;
+    for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
+      const int newest = static_cast<int>(told_.size()) - 1;
+      const HandAnswer& old = told_[static_cast<std::size_t>(std::max(0, newest - late_[finger]))];
+      const auto [first, joints] = model::Hand::jointsOf(finger);
+      arrived.q.segment(first, joints) = old.q.segment(first, joints);
+      arrived.qd.segment(first, joints) = old.qd.segment(first, joints);
+      arrived.tau.segment(first, joints) = old.tau.segment(first, joints);
+      arrived.kp.segment(first, joints) = old.kp.segment(first, joints);
+      if (utime_ >= kStartUs + 400'000 &&
+          arrived.tau[first + joints - 2] < told_[1000].tau[first + joints - 2])
+        began_.emplace(finger, utime_ - kStartUs);
+    }
+    hand_.tick(arrived);
+  }
+
+  std::array<int, model::kFingers> late_{};
+  std::vector<HandAnswer> told_;
+  std::map<model::Finger, int64_t> began_;  ///< [us], when a finger began to let go
+};
+
+TEST_F(LateHand, LetsGoWithAllFingersWhenThePlanSays) {
+  throwWith({4, 9, 0}, true, 0.04);
+  EXPECT_NEAR(static_cast<double>(events_[0].utime - kStartUs), 491e3, 1e3);
+  ASSERT_TRUE(events_[0].dead_times);
+  const double last = (*events_[0].dead_times)[model::kThumb];
+  EXPECT_NEAR(last, 0.009, 0.5e-3);
+  EXPECT_NEAR(static_cast<double>(events_[0].predicted_utime - events_[0].utime), 10e3 + 1e6 * last,
+              1);
+  ASSERT_EQ(began_.size(), 3u);
+  for (const auto& [finger, begin] : began_)
+    EXPECT_NEAR(static_cast<double>(begin), 500e3, 1.1e3) << finger;
+}
+
+TEST_F(LateHand, OpensTheThumbWhenThePlanSaysWhereThereIsNoWindow) {
+  throwWith({4, 9, 0}, true, 0);
+  EXPECT_NEAR(static_cast<double>(began_.at(model::kThumb)), 500e3, 1.1e3);
+}
+
+TEST_F(LateHand, FeelsNothingForAPlanThatDoesNotAdapt) {
+  throwWith({4, 9, 0}, false, 0.04);
+  EXPECT_EQ(events_[0].utime, kStartUs + 500'000);
+  EXPECT_FALSE(events_[0].dead_times);
+  EXPECT_NEAR(static_cast<double>(began_.at(model::kThumb)), 509e3, 1.1e3);
 }
 
 TEST_F(HandThrow, ABallThatIsTouchedAgainIsSaid) {

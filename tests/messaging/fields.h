@@ -63,7 +63,7 @@ inline std::vector<double*> numbers(controller_status_t& m) {
   return of(m.q_error, m.qd_error, m.q_error_max);
 }
 inline std::vector<double*> numbers(release_t& m) {
-  return of(m.f_normal, m.grip_force, m.p_HBall, m.youngs_modulus);
+  return of(m.f_normal, m.grip_force, m.p_HBall, m.youngs_modulus, m.dead_time);
 }
 inline std::vector<double*> numbers(image_t& /*m*/) {
   return {};

@@ -71,6 +71,28 @@ TEST_P(RobustPlan, ResidualAccelerationIsWhatThePlanSays) {
   }
 }
 
+TEST(WindowlessPlan, OutOfReachOfAnyWindowTheFlightIsShortAndDragMattersLittle) {
+  const DefaultThrow example;
+  const auto plan = [&](const std::string& strategy) {
+    ThrowRequest request = example.requestTo(2.66, 1.37, 0.45);
+    request.strategy = strategy;
+    return std::get<Plan>(Planner(example.config).plan(request));
+  };
+  const auto movedByDrag = [&](const Plan& thrown) {
+    const ThrowRequest request = example.requestTo(2.66, 1.37, 0.45);
+    const double share = 0.1;
+    return share * model::landingJacobian(thrown.release, request.target, example.config.ball,
+                                          example.config.arm.gravity)
+                       .col(0)
+                       .norm();
+  };
+  const Plan robust = plan("robust"), paper = plan("paper");
+  EXPECT_LT(robust.release_window[1] - robust.release_window[0], 0.01);
+  EXPECT_LT(robust.flight_time, 0.7);
+  EXPECT_LT(movedByDrag(robust), 0.03) << "[m]";
+  EXPECT_GT(movedByDrag(paper), 4 * movedByDrag(robust)) << "the fastest throw is a lob";
+}
+
 TEST(ReleasePrediction, AThrowAfterWhichTheHandTouchesTheBallAgainIsNone) {
   const DefaultThrow example;
   ThrowRequest request = example.request();
