@@ -89,7 +89,79 @@ struct DocumentCampaign {
   std::vector<std::string> arguments;
   int throws = 0;
   std::vector<std::pair<std::string, std::string>> pictures;
+  std::string (*table)(
+      const fs::path& report);  ///< Markdown, from what `fastball report` has written
 };
+
+using Cells = std::vector<std::string>;
+
+/// The lines of a CSV file of numbers and words, without its head.
+std::vector<Cells> linesOf(const fs::path& path) {
+  std::istringstream text(readText(path));
+  std::vector<Cells> lines;
+  for (std::string line; std::getline(text, line);) {
+    Cells cells;
+    std::istringstream rest(line);
+    for (std::string cell; std::getline(rest, cell, ',');)
+      cells.push_back(cell);
+    lines.push_back(std::move(cells));
+  }
+  if (lines.empty())
+    throw std::runtime_error(path.string() + " is empty");
+  lines.erase(lines.begin());
+  return lines;
+}
+
+std::string rounded(const std::string& number, const char* format) {
+  return number.empty() ? "" : fmt::format(fmt::runtime(format), std::stod(number));
+}
+
+std::string causesTable(const fs::path& report) {
+  std::string table =
+      "| error | throws off, alone | hit % off | gain (points), 95 % interval | hit % alone | mean "
+      "right, up alone (mm) | sd right, up alone (mm) |\n| --- | --- | --: | --- | --: | --- | --- "
+      "|\n";
+  for (const Cells& c : linesOf(report / "causes-paper.csv")) {
+    const bool all = c.at(5).empty();
+    table += fmt::format(
+        "| {} | {} | {} | {} | {} | {}, {} | {}, {} |\n", all ? "all of them" : "`" + c.at(0) + "`",
+        all ? c.at(1) : c.at(1) + ", " + c.at(8), rounded(c.at(2), "{:.1f}"),
+        all ? ""
+            : fmt::format("{}, {} to {}", rounded(c.at(5), "{:+.1f}"), rounded(c.at(6), "{:+.0f}"),
+                          rounded(c.at(7), "{:+.0f}")),
+        rounded(c.at(9), "{:.1f}"), rounded(c.at(12), "{:+.0f}"), rounded(c.at(13), "{:+.0f}"),
+        rounded(c.at(14), "{:.1f}"), rounded(c.at(15), "{:.1f}"));
+  }
+  return table;
+}
+
+std::string studyTable(const fs::path& report) {
+  const std::vector<Cells> lines = linesOf(report / "study.csv");
+  std::string table = fmt::format(
+      "| {} | strategy | throws | hit % | 95 % interval | clean % | sd right, up (mm) |\n"
+      "| --: | --- | --: | --: | --- | --: | --- |\n",
+      lines.at(0).at(0));
+  for (const Cells& c : lines) {
+    table += fmt::format("| {} | `{}` | {} | {} | {} to {} | {} | {}, {} |\n", c.at(1), c.at(2),
+                         c.at(3), rounded(c.at(4), "{:.1f}"), rounded(c.at(5), "{:.1f}"),
+                         rounded(c.at(6), "{:.1f}"), rounded(c.at(7), "{:.1f}"),
+                         rounded(c.at(10), "{:.1f}"), rounded(c.at(11), "{:.1f}"));
+  }
+  return table;
+}
+
+/// The first table of the page.
+std::string strategiesTable(const fs::path& report) {
+  std::string table;
+  std::istringstream lines(readText(report / "report.md"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("| ", 0) == 0)
+      table += line + "\n";
+    else if (!table.empty())
+      break;
+  }
+  return table;
+}
 
 std::vector<DocumentCampaign> documentCampaigns(const DocumentOptions& options) {
   const int all = options.throws, some = options.study_throws;
@@ -98,28 +170,18 @@ std::vector<DocumentCampaign> documentCampaigns(const DocumentOptions& options) 
       {"48v",
        {"--arm", "wam4-48v"},
        all,
-       {{"landings", "landings-48v"}, {"throw-numbers", "throw-numbers-48v"}}},
-      {"90v", {"--arm", "wam4-90v"}, all, {{"landings", "landings-90v"}}},
+       {{"landings", "landings-48v"}, {"throw-numbers", "throw-numbers-48v"}},
+       strategiesTable},
+      {"90v", {"--arm", "wam4-90v"}, all, {{"landings", "landings-90v"}}, strategiesTable},
       {"causes",
        {"--study", "causes", "--strategy", "paper", "--set-up-throws", "2"},
        some,
-       {{"causes-paper", "causes-paper"}}}};
+       {{"causes-paper", "causes-paper"}},
+       causesTable}};
   for (const char* study : {"scale", "distance"})
-    campaigns.push_back({study, {"--study", study, "--strategy", best}, some, {{"study", study}}});
+    campaigns.push_back(
+        {study, {"--study", study, "--strategy", best}, some, {{"study", study}}, studyTable});
   return campaigns;
-}
-
-/// The lines of the first table in a page.
-std::string firstTable(const std::string& page) {
-  std::string table;
-  std::istringstream lines(page);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("| ", 0) == 0)
-      table += line + "\n";
-    else if (!table.empty())
-      break;
-  }
-  return table;
 }
 
 void makeRobustness(const DocumentOptions& options) {
@@ -134,8 +196,7 @@ void makeRobustness(const DocumentOptions& options) {
     for (const auto& [from, to] : campaign.pictures)
       fs::copy_file(report / (from + ".png"), options.tree / "docs/robustness" / (to + ".png"),
                     fs::copy_options::overwrite_existing);
-    writeText(path, withBlock(readText(path), campaign.block,
-                              firstTable(readText(report / "report.md"))));
+    writeText(path, withBlock(readText(path), campaign.block, campaign.table(report)));
   }
 }
 
