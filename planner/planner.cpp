@@ -142,10 +142,8 @@ std::optional<Plan> Planner::fromAtlas(const ThrowRequest& request) const {
 }
 
 std::optional<Plan> Planner::anew(const ThrowRequest& request, ThrowKind kind) const {
-  if (kind == ThrowKind::kWindow) {
-    auto plan = windows_.plan(request, false);
-    return plan ? plan : windows_.plan(request, true);
-  }
+  if (kind == ThrowKind::kWindow)
+    return windows_.plan(request, false);
   PlanResult result = swings_.plan(request, {shoulderOf(kind)}, goalOf(kind));
   if (Plan* plan = std::get_if<Plan>(&result))
     return std::move(*plan);
@@ -190,6 +188,8 @@ PlanResult Planner::planAnew(const ThrowRequest& request) const {
     if (std::optional<Plan> plan = anew(request, kind))
       return *std::move(plan);
   }
+  if (std::optional<Plan> plan = windows_.plan(request, true))
+    return *std::move(plan);
   return swings_.plan(request, {Shoulder::kFree});
 }
 
