@@ -175,8 +175,8 @@ TEST_F(Report, OfALogWithoutTheHandShowsTheRestAndSaysWhatIsMissing) {
 
 TEST_F(Report, OfALogCutInTheMiddleShowsWhatIsBeforeTheCut) {
   const std::string whole = contents(log());
-  // In flight: behind the release, before the landing.
-  std::size_t cut = whole.rfind("RELEASE") + 2000;
+  // In flight, behind the release and before the landing, within a record: a record begins with this word.
+  const std::size_t cut = whole.find("\xED\xA1\xDA\x01", whole.rfind("RELEASE") + 2000) + 100;
   ASSERT_LT(cut, whole.rfind("LANDING"));
   std::ofstream(path("cut"), std::ios::binary) << whole.substr(0, cut);
   const ReportOutcome outcome = report(path("cut"));
