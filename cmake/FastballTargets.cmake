@@ -46,6 +46,18 @@ function(fastball_precompiled target headers)
   endif()
 endfunction()
 
+# fastball_together(target sources...): a release build compiles these as one, so that what all of them instantiate is instantiated
+# once; names in their anonymous namespaces must differ. Worth it where headers cost more than the code: a third of the time.
+function(fastball_together target)
+  if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    list(GET ARGN 0 first)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${first})
+    # Said of types that a .cpp has for itself, once it is included.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
 # fastball_library(name SOURCES ... LIBRARIES ...): a static library, PUBLIC dependencies.
 function(fastball_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
