@@ -145,7 +145,7 @@ void HandController::beginScene(const HandSample& sample) {
   }
   kept_ = false;
   phase_ = Phase::kOpen;
-  path_ = model::JointPath(sample.q, q_open_, sample.utime, config_.release.clear_time);
+  path_ = model::JointPath(sample.q, q_open_, sample.utime, config_.grasp_time);
   slip_watch_ = {};
   ball_watch_ = BallWatch(
       {config_.release.touch_force, config_.quiet_time, config_.force_noise, config_.force_delay});

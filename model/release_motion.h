@@ -35,7 +35,7 @@ struct ReleaseSettings {
   double retreat_ratio = 1.6;  ///< way of a retreating finger over how deep it presses
   double open_delay = 0.002;   ///< [s], from the end of that until all fingers open
   double open_distance = 0;    ///< [m], of the open fingers' distal axes from the z axis of H
-  double clear_time = 0.1;     ///< [s], the two fingers behind the ball take to open
+  double clear_time = 0.04;    ///< [s], the two fingers behind the ball take to open
   double touch_force = 0.05;   ///< [N], less counts as no touch
 
   /// A window shorter than half the time of the relaxation is none.
