@@ -6,6 +6,8 @@
 #include <boost/process/search_path.hpp>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "bench/row.h"
@@ -150,6 +152,25 @@ std::string studyTable(const fs::path& report) {
   return table;
 }
 
+/// A line for each error: hits and scatter at each of its sizes.
+std::string errorsTable(const fs::path& report) {
+  std::string head, rule, rows, error;
+  std::set<std::string> sizes;
+  for (const Cells& c : linesOf(report / "study.csv")) {
+    if (c.at(0) != error) {
+      error = c.at(0);
+      rows += fmt::format("{}| `{}` |", rows.empty() ? "" : "\n", error.substr(0, error.find(' ')));
+    }
+    if (sizes.insert(c.at(1)).second) {
+      head += fmt::format(" x {} |", c.at(1));
+      rule += " --- |";
+    }
+    rows += fmt::format(" {} % ({}, {}) |", rounded(c.at(4), "{:.0f}"), rounded(c.at(10), "{:.0f}"),
+                        rounded(c.at(11), "{:.0f}"));
+  }
+  return "| error |" + head + "\n| --- |" + rule + "\n" + rows + "\n";
+}
+
 /// The first table of the page.
 std::string strategiesTable(const fs::path& report) {
   std::string table;
@@ -178,9 +199,14 @@ std::vector<DocumentCampaign> documentCampaigns(const DocumentOptions& options) 
        some,
        {{"causes-paper", "causes-paper"}},
        causesTable}};
-  for (const char* study : {"scale", "distance"})
+  for (const char* study : {"scale", "distance", "height", "azimuth", "ball", "speed"})
     campaigns.push_back(
         {study, {"--study", study, "--strategy", best}, some, {{"study", study}}, studyTable});
+  campaigns.push_back({"errors",
+                       {"--study", "errors", "--strategy", "adaptive"},
+                       some,
+                       {{"study", "errors"}},
+                       errorsTable});
   return campaigns;
 }
 
