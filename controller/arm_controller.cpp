@@ -249,7 +249,8 @@ std::optional<Answer> ArmController::answer(const ArmSample& sample) {
   const int64_t gap = new_scene ? 0 : sample.utime - last_.utime;
   if (stop_pending_) {
     beginStop(sample, notice_);
-  } else if (seconds(gap) > config_.stale_limit && !stopped_) {
+  } else if (seconds(gap) > config_.stale_limit) {
+    // Also while it brakes or rests: the robot may have braked by itself meanwhile, and rest elsewhere.
     ++status_.stale_states;
     beginStop(sample, fmt::format("braked: no state of the arm for {} ms, {:.3g} ms are allowed",
                                   gap / 1000, config_.stale_limit * 1000));
@@ -259,6 +260,9 @@ std::optional<Answer> ArmController::answer(const ArmSample& sample) {
   watchError(desiredMotion(sample.utime), sample);
   if (!stopped_) {
     checkState(sample);
+  } else if (status_.q_error.cwiseAbs().maxCoeff() > config_.tracking_bound) {
+    // An arm that did not hear the commands is not pulled to where they would have brought it.
+    beginStop(sample, notice_);
   }
   const model::ArmMotion desired = desiredMotion(sample.utime);
   const ControlLaw::Torque torque =

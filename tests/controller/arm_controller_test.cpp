@@ -204,6 +204,37 @@ TEST_F(Throw, AGapInTheStatesBrakes) {
               AllOf(HasSubstr("no state"), HasSubstr("31 ms"), HasSubstr("20 ms")));
 }
 
+/// Heard again after a gap in which it has come to rest by itself, elsewhere than the controller would have brought it.
+TEST_F(Throw, AnArmThatBrakedByItselfMeanwhileIsNotPulledElsewhere) {
+  arm();
+  run(1100);
+  controller_.stop("ESTOP: test");
+  run(5);
+  ASSERT_GT(robot_.qd.norm(), 0.5);
+  robot_.q += 0.01 * robot_.qd;
+  robot_.qd.setZero();
+  const Eigen::Vector4d q_rest = robot_.q;
+  utime_ += 500'000;
+  tick_ += 500;
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_EQ(tick().phase, Phase::kBrake);
+    EXPECT_LT(robot_.qd.norm(), 0.05);
+  }
+  EXPECT_LT((robot_.q - q_rest).norm(), 1e-3);
+  EXPECT_EQ(controller_.notice(), "ESTOP: test");
+}
+
+/// All its states are heard, but it does not hear the commands.
+TEST_F(Throw, ABrakedArmThatIsFarFromWhereItShouldBeIsNotPulledThere) {
+  arm();
+  run(1100);
+  controller_.stop("ESTOP: test");
+  run(500);
+  const Eigen::Vector4d q_rest = robot_.q += Eigen::Vector4d(0.15, 0, 0, -0.15);
+  run(500);
+  EXPECT_LT((robot_.q - q_rest).norm(), 1e-3);
+}
+
 TEST_F(Throw, AJointBeyondItsStopBrakes) {
   run(10);
   robot_.q[3] = 3.2;
