@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hand_server/release_condition.h"
 #include "hand_server/wrist_load.h"
 #include "model/contact.h"
 
@@ -14,8 +15,6 @@ namespace fastball::hand_server {
 namespace {
 
 using model::HandVector;
-
-constexpr double kHalfTick = 0.5e-3;  // [s], a force is the mean over a tick
 
 bool operator==(const ThrowOrder& a, const ThrowOrder& b) {
   return a.plan_id == b.plan_id && a.scene_id == b.scene_id && a.start_utime == b.start_utime;
@@ -40,7 +39,8 @@ HandController::HandController(const model::Arm& arm,
       hand_(hand),
       ball_(ball),
       config_(config),
-      q_open_(openPosture(hand, config.release.open_distance)) {}
+      q_open_(openPosture(hand, config.release.open_distance)),
+      timing_(arm, hand.parameters().p_HBall, config) {}
 
 bool HandController::offerPlan(const HandPlan& plan) {
   if (next_ && next_->plan == plan) {
@@ -128,7 +128,8 @@ void HandController::watchArm(int64_t scene_id, int64_t utime, const Eigen::Vect
     return;
   }
   int joint = 0;
-  const double error = (run_->plan.arm.at(planTime(utime)).q - q).cwiseAbs().maxCoeff(&joint);
+  const double error =
+      (run_->plan.arm.at(timing_.planTime(utime)).q - q).cwiseAbs().maxCoeff(&joint);
   if (error > config_.arm_bound) {
     keep(fmt::format(
         "kept the ball: joint {} of the arm is {:.3g} rad from plan {}, {:.3g} rad is allowed",
@@ -173,100 +174,51 @@ void HandController::beginThrow(const HandSample& sample) {
   prepared_ = false;
   X_TH_ = hand_.X_TH(run_->plan.q_wrist[0], run_->plan.q_wrist[1]);
   path_ = model::JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
-  push_end_ = {};
+  timing_.beginThrow(run_, order.start_utime, X_TH_);
   grip_.reset();
   preparation_.emplace(*run_, hand_, ball_, config_, sample.utime);
 }
 
-double HandController::planTime(int64_t utime) const {
-  return static_cast<double>(utime - run_order_.start_utime) / 1e6;
-}
-
-model::ReleaseMode HandController::releaseMode() const {
-  return config_.release.modeFor(run_->plan.window);
-}
-
-/// [s], from the command to the departure, as the plan says.
-double HandController::plannedDelay() const {
-  return run_->plan.t_release - run_->plan.t_release_command;
-}
-
-bool HandController::mustRelease(int64_t utime) {
-  if (config_.release_by == ReleaseBy::kNormalForce)
-    return pushHasEnded(planTime(utime));
-  // In a window the moment does not matter.
-  const bool shifted = run_->plan.adapts && !config_.release.isWindow(run_->plan.window);
-  const double shift = shifted ? delay_.commandShift(releaseMode(), config_.command_shift_max) : 0;
-  // Felt dead times do not end with a tick: the nearest one.
-  const double early = deadTimes() ? deadTime() + kHalfTick : 0;
-  return planTime(utime) >= run_->plan.t_swing &&
-         utime >=
-             run_order_.start_utime + microseconds(run_->plan.t_release_command + shift - early);
-}
-
-/// As felt before the swing.
-std::optional<DeadTimes> HandController::deadTimes() const {
-  return preparation_ ? preparation_->deadTimes() : std::nullopt;
-}
-
-/// [s], of the finger that obeys last; 0 if it is not known.
-double HandController::deadTime() const {
-  const auto felt = deadTimes();
-  return felt ? *std::max_element(felt->begin(), felt->end()) : 0;
-}
-
-/// All fingers shall obey when the last one does.
-model::FingerTimes HandController::fingerTimes() const {
-  model::FingerTimes later{};
-  if (const auto felt = deadTimes()) {
-    for (std::size_t i = 0; i < later.size(); ++i)
-      later[i] = microseconds(deadTime() - (*felt)[i]);
+void HandController::releaseWhenDue(const HandSample& sample) {
+  switch (timing_.decide(sample.utime)) {
+    case ReleaseTiming::Decision::kWait:
+      return;
+    case ReleaseTiming::Decision::kRelease:
+      beginRelease(sample);
+      return;
+    case ReleaseTiming::Decision::kMissed:
+      keep(fmt::format(
+          "kept the ball: the hand did not stop pushing (Eq. 24) within {:.3g} s of the planned "
+          "release",
+          config_.normal_force_window));
+      return;
   }
-  return later;
 }
 
-/// Eq. (24) at time t [s] of the plan, near the planned release only.
-bool HandController::pushHasEnded(double t) {
-  const HandPlan& plan = run_->plan;
-  if (t < std::max(plan.t_swing, plan.t_release_command - config_.normal_force_window)) {
-    return false;
-  }
-  if (t > plan.t_release_command + config_.normal_force_window) {
-    keep(fmt::format(
-        "kept the ball: the hand did not stop pushing (Eq. 24) within {:.3g} s of the planned "
-        "release",
-        config_.normal_force_window));
-    return false;
-  }
-  return push_end_.reached(
-      pushingAcceleration(arm_, plan.arm.at(t), X_TH_, hand_.parameters().p_HBall));
-}
-
-void HandController::beginRelease(const HandSample& sample, ReleaseBy reason) {
+void HandController::beginRelease(const HandSample& sample) {
   phase_ = Phase::kRelease;
-  release_utime_ = sample.utime;
-  release_ = model::ReleaseMotion(hand_, preparation_->settled(), config_.release, releaseMode(),
-                                  fingerTimes());
-  predicted_utime_ =
-      sample.utime + microseconds(plannedDelay() + deadTime() + delay_.correction(releaseMode()));
+  timing_.command(sample.utime);
+  release_ = model::ReleaseMotion(hand_, preparation_->settled(), config_.release, timing_.mode(),
+                                  timing_.fingerTimes());
   commanded_ = {sample.utime,
                 run_->plan.id,
                 ReleaseEvent::Kind::kCommanded,
-                reason,
-                run_order_.start_utime + microseconds(run_->plan.t_release_command),
-                predicted_utime_,
+                config_.release_by,
+                timing_.plannedCommand(),
+                timing_.predictedDeparture(),
                 sample.force,
                 grip_,
-                deadTimes()};
+                timing_.deadTimes()};
 }
 
 /// Until the swing; says once, when it begins, if the thumb does not feel the grip it should have.
 void HandController::prepareGrip(const HandSample& sample) {
-  const double to_swing = run_->plan.t_swing - planTime(sample.utime);
+  const double to_swing = run_->plan.t_swing - timing_.planTime(sample.utime);
   if (prepared_)
     return;
   if (to_swing > 0) {
     preparation_->step(sample, 1e-6 * static_cast<double>(sample.utime - last_.utime), to_swing);
+    timing_.feel(preparation_->deadTimes());
     return;
   }
   prepared_ = true;
@@ -280,7 +232,7 @@ void HandController::prepareGrip(const HandSample& sample) {
 
 /// Says once, during the swing, if the ball slips between the fingers.
 void HandController::watchSlip(const HandSample& sample) {
-  const double t = planTime(sample.utime);
+  const double t = timing_.planTime(sample.utime);
   if (t < run_->plan.t_swing) {
     return;
   }
@@ -315,18 +267,17 @@ void HandController::watchBall(const HandSample& sample) {
 
 void HandController::sayDeparture(const BallWatch::Departure& departure) {
   if (phase_ >= Phase::kRelease) {
-    delay_.learn(releaseMode(), plannedDelay() + deadTime(),
-                 1e-6 * static_cast<double>(departure.utime - release_utime_));
+    timing_.learn(departure.utime);
   }
   departed_ = {departure.utime,
                run_->plan.id,
                ReleaseEvent::Kind::kDeparted,
                config_.release_by,
-               run_order_.start_utime + microseconds(run_->plan.t_release),
-               phase_ >= Phase::kRelease ? predicted_utime_ : departure.utime,
+               timing_.plannedDeparture(),
+               phase_ >= Phase::kRelease ? timing_.predictedDeparture() : departure.utime,
                departure.force,
                grip_,
-               deadTimes()};
+               timing_.deadTimes()};
 }
 
 void HandController::advancePhase(const HandSample& sample) {
@@ -339,14 +290,12 @@ void HandController::advancePhase(const HandSample& sample) {
   if (!kept_ && phase_ <= Phase::kHold) {
     prepareGrip(sample);
     watchSlip(sample);
-    if (mustRelease(sample.utime)) {
-      beginRelease(sample, config_.release_by);
-    }
+    releaseWhenDue(sample);
   }
   watchBall(sample);
-  const bool late = sample.utime - release_utime_ >= microseconds(config_.clear_delay);
+  const bool late = sample.utime - timing_.commanded() >= microseconds(config_.clear_delay);
   if (phase_ == Phase::kRelease && (ball_watch_.departed() || late)) {
-    release_.open(sample.utime - release_utime_);
+    release_.open(sample.utime - timing_.commanded());
     phase_ = Phase::kClear;
   }
 }
@@ -379,12 +328,13 @@ void HandController::command(const HandSample& sample) {
     preparation_->apply(sample.utime, answer_);
   }
   if (phase_ >= Phase::kRelease) {
-    release_.step(sample.utime - release_utime_, sample.q, sample.qd, sample.force, answer_);
+    release_.step(sample.utime - timing_.commanded(), sample.q, sample.qd, sample.force, answer_);
     phase_ = release_.opening() ? Phase::kClear : phase_;
   }
   if (run_) {
-    answer_.tau.head<2>() = wristLoad(
-        arm_, hand_.parameters(), run_->plan.arm.at(planTime(sample.utime)), run_->plan.q_wrist);
+    answer_.tau.head<2>() =
+        wristLoad(arm_, hand_.parameters(), run_->plan.arm.at(timing_.planTime(sample.utime)),
+                  run_->plan.q_wrist);
   }
   answer_.plan_id = run_ ? run_->plan.id : 0;
   answer_.phase = phase_;

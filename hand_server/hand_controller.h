@@ -10,8 +10,7 @@
 #include "hand_server/grip_preparation.h"
 #include "hand_server/hand_plan.h"
 #include "hand_server/hand_sample.h"
-#include "hand_server/release_condition.h"
-#include "hand_server/release_delay.h"
+#include "hand_server/release_timing.h"
 #include "hand_server/slip_watch.h"
 #include "model/arm.h"
 #include "model/hand.h"
@@ -100,21 +99,14 @@ class HandController {
   void beginScene(const HandSample& sample);
   void beginThrow(const HandSample& sample);
   void advancePhase(const HandSample& sample);
-  bool mustRelease(int64_t utime);
-  bool pushHasEnded(double t);
-  void beginRelease(const HandSample& sample, ReleaseBy reason);
+  void releaseWhenDue(const HandSample& sample);
+  void beginRelease(const HandSample& sample);
   void prepareGrip(const HandSample& sample);
   void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
-  model::ReleaseMode releaseMode() const;
-  double plannedDelay() const;
-  std::optional<DeadTimes> deadTimes() const;
-  double deadTime() const;
-  model::FingerTimes fingerTimes() const;
   void sayDeparture(const BallWatch::Departure& departure);
   double pressure(model::Finger finger, const model::HandVector& q) const;
-  double planTime(int64_t utime) const;
 
   model::Arm arm_;
   model::Hand hand_;
@@ -136,15 +128,13 @@ class HandController {
   Phase phase_ = Phase::kOpen;
   bool kept_ = false;
   bool prepared_ = false;  ///< the swing has begun
-  int64_t release_utime_ = 0, predicted_utime_ = 0;
   model::JointPath path_;
   std::optional<GripPreparation> preparation_;  ///< of run_
   std::optional<GripEstimate> grip_;            ///< before the swing
   model::ReleaseMotion release_;
-  PushEnd push_end_;
   BallWatch ball_watch_;
   SlipWatch slip_watch_;
-  ReleaseDelay delay_;  ///< over all throws
+  ReleaseTiming timing_;  ///< of run_
   HandSample last_;
   HandAnswer answer_;  ///< to last_
   std::optional<ReleaseEvent> commanded_, departed_;

@@ -9,6 +9,9 @@
 
 namespace fastball::hand_server {
 
+/// [s]: a force is the mean over a tick, so it is that of half a tick before its state.
+inline constexpr double kHalfTick = 0.5e-3;
+
 /// One measured state of the hand.
 struct HandSample {
   int64_t utime = 0;  ///< [us], simulated
