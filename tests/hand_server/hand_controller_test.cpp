@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "tests/hand_server/scripted_hand.h"
+#include "tests/hand_server/hand_throw.h"
 
 namespace fastball::hand_server {
 namespace {
@@ -14,53 +14,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
-
-constexpr int64_t kSceneUs = 10'000'000;
-constexpr int64_t kStartUs = kSceneUs + 600'000;
-
-class HandThrow : public testing::Test {
- protected:
-  void arm(double window = 0) {
-    ASSERT_TRUE(controller_.offerPlan(throwPlan(1, window)));
-    ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
-  }
-  HandSample sample() const {
-    HandSample sample{utime_, scene_, tick_, hand_.q, hand_.qd, force_};
-    // The fingers carry this share of what the ball's mass takes along them.
-    const double t = 1e-6 * static_cast<double>(utime_ - kStartUs);
-    const HandPlan plan = throwPlan();
-    const Eigen::Isometry3d X_TH = testHand().X_TH(plan.q_wrist[0], plan.q_wrist[1]);
-    sample.tangential[0][0] =
-        carried_ * experiment().ball.mass *
-        carryingAcceleration(testArm(), plan.arm.at(t), X_TH, experiment().hand.p_HBall).z();
-    return sample;
-  }
-  HandAnswer tick() {
-    const HandAnswer answer = controller_.answer(sample()).value();
-    while (const auto event = controller_.takeEvent())
-      events_.push_back(*event);
-    obey(answer);
-    ++tick_;
-    utime_ += 1000;
-    return answer;
-  }
-  HandAnswer run(int ticks) {
-    HandAnswer last;
-    for (int i = 0; i < ticks; ++i)
-      last = tick();
-    return last;
-  }
-
-  virtual void obey(const HandAnswer& answer) { hand_.tick(answer); }
-
-  HandServerConfig config_ = loadConfig(kExperimentPath);
-  HandController controller_{testArm(), testHand(), experiment().ball, config_};
-  ScriptedHand hand_;
-  double carried_ = 1;
-  FingerForces force_{4 / std::sqrt(3.0), 4.0, 4 / std::sqrt(3.0)};
-  std::vector<ReleaseEvent> events_;
-  int64_t scene_ = 1, tick_ = 0, utime_ = kSceneUs;
-};
 
 TEST_F(HandThrow, WithoutAThrowTheFingersAreApart) {
   const HandAnswer answer = run(500);
@@ -162,122 +115,6 @@ TEST_F(HandThrow, InAReleaseWindowAllFingersRetreatAndOpen) {
   EXPECT_EQ(answer.tau[model::kProximalThumb], -experiment().hand.finger_torque_max);
   answer = run(150);
   EXPECT_NEAR(answer.q[model::kProximalThumb], config_.release.thumb.open_angle, 1e-9);
-}
-
-/// Throws of plans that expect the ball to leave 10 ms after the command; it leaves some 5 ms later.
-class LearningHand : public HandThrow {
- protected:
-  /// @return [us], when the command came, from the start of the plan.
-  int64_t throwLate(int64_t number, bool adapts, double window = 0) {
-    HandPlan plan = throwPlan(number, window);
-    plan.adapts = adapts;
-    scene_ = number;
-    tick_ = 0;
-    utime_ = kSceneUs * number;
-    force_ = {2, 4, 2};
-    events_.clear();
-    EXPECT_TRUE(controller_.offerPlan(plan));
-    EXPECT_TRUE(controller_.startThrow({number, number, utime_ + 600'000}));
-    while (events_.empty() && tick_ < 2000)
-      tick();
-    run(15);
-    force_ = {0, 0, 0};
-    run(20);
-    EXPECT_EQ(events_.size(), 2u);
-    return events_[0].utime - kSceneUs * number - 600'000;
-  }
-};
-
-TEST_F(LearningHand, PredictsTheDelayItHasFelt) {
-  int64_t off = 0;
-  for (int number = 1; number <= 10; ++number) {
-    throwLate(number, false);
-    EXPECT_EQ(events_[0].predicted_utime, events_[1].predicted_utime);
-    off = events_[1].utime - events_[1].predicted_utime;
-    EXPECT_TRUE(number > 1 || off > 3000) << off;
-  }
-  EXPECT_LT(std::abs(off), 700);
-}
-
-TEST_F(LearningHand, CommandsEarlierOnlyForAPlanThatAdaptsAndHasNoWindow) {
-  const int64_t first = throwLate(1, true);
-  EXPECT_NEAR(static_cast<double>(first), 500e3, 1e3)
-      << "but for the tick by which the hand is late";
-  const int64_t off = events_[1].utime - events_[1].planned_utime;
-  EXPECT_GT(off, 3000);
-  EXPECT_EQ(throwLate(2, false), 500'000);
-  const int64_t command = throwLate(3, true);
-  EXPECT_NEAR(static_cast<double>(command), 500e3 - 2.0 / 3.0 * static_cast<double>(off), 1e3);
-  EXPECT_LT(events_[1].utime, events_[1].planned_utime + 2 * off / 3);
-  EXPECT_EQ(throwLate(4, true, 0.04), 500'000) << "in a window the moment does not matter";
-}
-
-TEST_F(LearningHand, ShiftsNoCommandByMoreThanTheLimit) {
-  config_.command_shift_max = 0.001;
-  controller_ = HandController(testArm(), testHand(), experiment().ball, config_);
-  for (int number = 1; number <= 5; ++number)
-    throwLate(number, true);
-  EXPECT_EQ(throwLate(6, true), 499'000);
-}
-
-/// Fingers that obey some ticks late.
-class LateHand : public HandThrow {
- protected:
-  void throwWith(const std::array<int, model::kFingers>& late, bool adapts, double window) {
-    late_ = late;
-    HandPlan plan = throwPlan(1, window);
-    plan.adapts = adapts;
-    ASSERT_TRUE(controller_.offerPlan(plan));
-    ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
-    run(1200);
-    ASSERT_FALSE(events_.empty());
-  }
-  void obey(const HandAnswer& answer) override {
-    told_.push_back(answer);
-    HandAnswer arrived = answer;
-    for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
-      const int newest = static_cast<int>(told_.size()) - 1;
-      const HandAnswer& old = told_[static_cast<std::size_t>(std::max(0, newest - late_[finger]))];
-      const auto [first, joints] = model::Hand::jointsOf(finger);
-      arrived.q.segment(first, joints) = old.q.segment(first, joints);
-      arrived.qd.segment(first, joints) = old.qd.segment(first, joints);
-      arrived.tau.segment(first, joints) = old.tau.segment(first, joints);
-      arrived.kp.segment(first, joints) = old.kp.segment(first, joints);
-      if (utime_ >= kStartUs + 400'000 &&
-          arrived.tau[first + joints - 2] < told_[1000].tau[first + joints - 2])
-        began_.emplace(finger, utime_ - kStartUs);
-    }
-    hand_.tick(arrived);
-  }
-
-  std::array<int, model::kFingers> late_{};
-  std::vector<HandAnswer> told_;
-  std::map<model::Finger, int64_t> began_;  ///< [us], when a finger began to let go
-};
-
-TEST_F(LateHand, LetsGoWithAllFingersWhenThePlanSays) {
-  throwWith({4, 9, 0}, true, 0.04);
-  EXPECT_NEAR(static_cast<double>(events_[0].utime - kStartUs), 491e3, 1e3);
-  ASSERT_TRUE(events_[0].dead_times);
-  const double last = (*events_[0].dead_times)[model::kThumb];
-  EXPECT_NEAR(last, 0.009, 0.5e-3);
-  EXPECT_NEAR(static_cast<double>(events_[0].predicted_utime - events_[0].utime), 10e3 + 1e6 * last,
-              1);
-  ASSERT_EQ(began_.size(), 3u);
-  for (const auto& [finger, begin] : began_)
-    EXPECT_NEAR(static_cast<double>(begin), 500e3, 1.1e3) << finger;
-}
-
-TEST_F(LateHand, OpensTheThumbWhenThePlanSaysWhereThereIsNoWindow) {
-  throwWith({4, 9, 0}, true, 0);
-  EXPECT_NEAR(static_cast<double>(began_.at(model::kThumb)), 500e3, 1.1e3);
-}
-
-TEST_F(LateHand, FeelsNothingForAPlanThatDoesNotAdapt) {
-  throwWith({4, 9, 0}, false, 0.04);
-  EXPECT_EQ(events_[0].utime, kStartUs + 500'000);
-  EXPECT_FALSE(events_[0].dead_times);
-  EXPECT_NEAR(static_cast<double>(began_.at(model::kThumb)), 509e3, 1.1e3);
 }
 
 TEST_F(HandThrow, ABallThatIsTouchedAgainIsSaid) {
