@@ -6,168 +6,17 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/ball_images.h"
+#include "bench/ball_image_rows.h"
 #include "bench/clutter.h"
-#include "bench/flight_trials.h"
+#include "bench/flight_rows.h"
 #include "bench/image_trials.h"
-#include "vision_tracker/config.h"
+#include "bench/vision_setup.h"
 
 namespace fastball::bench {
 namespace {
 
-constexpr int kFlights = 2000;     // the ratio's standard error is then 1.6 %
 constexpr int kImageThrows = 150;  // the mean normalised error's standard error is then 0.16
-constexpr int kBallsPerCell = 40;
-constexpr double kNoise = 0.03;  // [px], of a centre: what the drawn images show
 constexpr double kMilli = 1e3;
-
-struct Setup {
-  std::string path = config::defaultExperimentPath();
-  config::Experiment experiment = config::loadExperiment(path);
-  vision_tracker::TrackerOptions tracker = vision_tracker::readTracker(path).tracker;
-  sim_bullet::CameraRigOptions rig = sim_bullet::readCameraRig(path);
-
-  FlightTrialResult fly(const FlightTrialOptions& options) const {
-    std::vector<model::Camera> cameras;
-    for (const sim_bullet::RigCamera& camera : rig.cameras)
-      cameras.push_back(camera.camera);
-    return flightTrials(cameras, rig.cameras.front().rate, experiment, tracker, options);
-  }
-};
-
-Row boundRow(const std::string& id, double lost, double outliers, const std::string& note) {
-  const Setup setup;
-  FlightTrialOptions options;
-  options.throws = kFlights;
-  options.sigma = kNoise;
-  options.lost = lost;
-  options.outliers = outliers;
-  const FlightTrialResult whole = setup.fly(options);
-  options.seen = 0.6;
-  const FlightTrialResult part = setup.fly(options);
-  const FlightTrialResult& worse = whole.ratio() > part.ratio() ? whole : part;
-  return {
-      id,
-      worse.ratio(),
-      "1",
-      "landing error over the Cramer-Rao bound, the better of the two",
-      std::min(whole.ratio(), part.ratio()),
-      fmt::format(
-          "{} throws, centres with {} px noise{}; whole flight {:.3f} mm, first 60 % {:.3f} mm; "
-          "{} without a landing",
-          2 * kFlights, kNoise, note, whole.rms * kMilli, part.rms * kMilli,
-          whole.failures + part.failures)};
-}
-
-Row cleanBound() {
-  return boundRow("vision.crb_ratio", 0, 0, "");
-}
-
-Row dirtyBound() {
-  return boundRow("vision.crb_ratio_dirty", 0.1, 0.05,
-                  ", 10 % lost and 5 % outliers against the bound of all");
-}
-
-Row consistency() {
-  Setup setup;
-  FlightTrialOptions options;
-  options.throws = kFlights;
-  options.sigma = kNoise;
-  options.calibration = {0.5e-3, 1e-3, 1e-3};
-  setup.tracker.prior.calibration = options.calibration;
-  const FlightTrialResult result = setup.fly(options);
-  return {"vision.consistency",
-          result.inside,
-          "1",
-          "a covariance that is right",
-          0.95,
-          fmt::format("true landings inside the stated 95 % ellipse; calibration wrong by 0.5 "
-                      "mrad, 1 mm, 0.1 %: "
-                      "{:.2f} mm rms",
-                      result.rms * kMilli)};
-}
-
-Row degraded() {
-  const Setup setup;
-  FlightTrialOptions options;
-  options.throws = kFlights;
-  options.sigma = kNoise;
-  const FlightTrialResult clean = setup.fly(options);
-  options.lost = 0.2;
-  const FlightTrialResult lost = setup.fly(options);
-  options.lost = 0;
-  options.hidden_from = 0.35;
-  options.hidden_to = 0.65;
-  const FlightTrialResult hidden = setup.fly(options);
-  return {"vision.degraded_ratio",
-          std::max(lost.rms, hidden.rms) / clean.rms,
-          "1",
-          "all images",
-          1,
-          fmt::format("20 % of the images lost {:.3f} mm, 30 % of the flight hidden {:.3f} mm; "
-                      "NEES {:.2f}, {:.2f}",
-                      lost.rms * kMilli, hidden.rms * kMilli, lost.nees, hidden.nees)};
-}
-
-/// Balls of several sizes, contrasts and lamps.
-struct CentreResult {
-  double bias = 0;  ///< [px], of the worst kind of ball, along or across the light
-  double rms = 0;   ///< [px] per axis, of the worst kind of ball
-  int missed = 0, balls = 0;
-};
-
-CentreResult measureCentres() {
-  CentreResult result;
-  int seed = 1;
-  for (const double radius : {5.0, 8.0, 12.0, 20.0}) {
-    for (const double contrast : {20.0, 50.0}) {
-      for (const double lamp : {30.0, 100.0}) {
-        BallImageOptions options;
-        options.radius = radius;
-        options.contrast = contrast;
-        options.lamp = lamp;
-        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-        double squares = 0;
-        int found = 0;
-        for (int i = 0; i < kBallsPerCell; ++i) {
-          const BallImageTrial trial = ballImageTrial(options, seed++);
-          ++result.balls;
-          if (!trial.found)
-            continue;
-          ++found;
-          const Eigen::Vector2d across(-trial.light.y(), trial.light.x());
-          sum += Eigen::Vector2d(trial.error.dot(trial.light), trial.error.dot(across));
-          squares += trial.error.squaredNorm();
-        }
-        result.missed += kBallsPerCell - found;
-        result.bias = std::max(result.bias, (sum / found).cwiseAbs().maxCoeff());
-        result.rms = std::max(result.rms, std::sqrt(squares / (2 * found)));
-      }
-    }
-  }
-  return result;
-}
-
-const CentreResult& centres() {
-  static const CentreResult result = measureCentres();
-  return result;
-}
-
-std::string centreNote() {
-  return fmt::format(
-      "worst of 16 kinds of ball: radius 5 to 20 px, contrast 20 and 50 levels, lamp 30 and 100 "
-      "levels; side "
-      "light, clutter, blur, 1 px of motion, noise, JPEG; {} of {} balls missed",
-      centres().missed, centres().balls);
-}
-
-Row centreBias() {
-  return {"vision.centre_bias_px", centres().bias, "px", "none", {}, centreNote()};
-}
-
-Row centreRms() {
-  return {"vision.centre_rms_px", centres().rms, "px", "none", {}, centreNote()};
-}
 
 /// Throws from drawn images to the landing.
 struct ImageResult {
@@ -186,7 +35,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 ImageResult measureImages() {
-  Setup setup;
+  VisionSetup setup;
   setup.rig.workers = 0;  // drawing does not disturb the clock
   ImageResult result;
   std::vector<double> image_seconds, landing_seconds;
@@ -250,7 +99,7 @@ Row landingOnNet() {
       0.01;  // [m], per axis, error of the pose that is given where the net is measured
   constexpr double kTilt = 0.02;       // [rad]
   constexpr double kInside95 = 5.991;  // 95 % quantile of a chi-square of two dimensions
-  Setup setup;
+  VisionSetup setup;
   setup.tracker.prior.calibration = {0.5e-3, 1e-3, 1e-3};
   double squares[2] = {}, stated = 0;
   int landed[2] = {}, inside[2] = {};
@@ -307,7 +156,7 @@ struct ClutterResult {
 
 ClutterResult measureClutter() {
   constexpr int kThrows = 60;
-  const Setup setup;
+  const VisionSetup setup;
   const Clutter clutter(setup.rig, setup.experiment);
   ClutterResult result;
   for (int i = 0; i < kThrows; ++i) {
@@ -368,7 +217,7 @@ Row imageTime() {
 }
 
 Row realTime() {
-  const Setup setup;
+  const VisionSetup setup;
   return {"vision.real_time_factor",
           images().real_time,
           "1",
@@ -379,7 +228,7 @@ Row realTime() {
 }
 
 Row latency() {
-  const Setup setup;
+  const VisionSetup setup;
   const double exposure = setup.rig.cameras.front().exposure;
   return {"vision.latency_ms",
           (images().landing_p99 + exposure / 2) * kMilli,
