@@ -25,16 +25,6 @@ constexpr int64_t kLatestUs = 1LL << 60;  // leaves room for the scene's own tim
 constexpr double kLeastUpright = 0.05;    // horizontal part of the net's normal
 constexpr double kLargestRing = 10;       // [m]
 
-messaging::Channel<image_t> imageChannel(const std::string& name) {
-  for (const auto& channel : {messaging::kCameraLeft, messaging::kCameraRight}) {
-    if (name == channel.name)
-      return channel;
-  }
-  throw std::invalid_argument(fmt::format("camera channel '{}' is none of {} and {}", name,
-                                          messaging::kCameraLeft.name,
-                                          messaging::kCameraRight.name));
-}
-
 /// A message may be well formed and still no scene. @throw std::invalid_argument
 void requireRealScene(const scene_t& message) {
   if (message.duration > kLongestScene)
@@ -79,11 +69,9 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
       setup_(setup),
       arm_states_(endpoint, messaging::kArmState),
       hand_states_(endpoint, messaging::kHandState),
-      truths_(endpoint, messaging::kSimTruth),
-      camera_infos_(endpoint, messaging::kCameraInfo) {
+      truths_(endpoint, messaging::kSimTruth) {
   if (setup_.cameras) {
-    for (const RigCamera& camera : setup_.cameras->cameras)
-      images_.emplace_back(endpoint, imageChannel(camera.channel));
+    cameras_.emplace(endpoint, *setup_.cameras, setup_.experiment, setup_.uncertainty);
   } else {
     landings_.emplace(endpoint, messaging::kLanding);
   }
@@ -137,7 +125,9 @@ void SimNode::step() {
     stepRealtime();
   else
     stepLockstep();
-  sayImages();
+  // The images of a scene that has just ended have been said.
+  if (cameras_ && running())
+    cameras_->sayImages();
 }
 
 int64_t SimNode::wakeUs() const {
@@ -172,38 +162,12 @@ void SimNode::begin(const scene_t& message) {
   last_tick_ = std::max<int64_t>(1, std::llround(message.duration / kTick));
   state_ = {"running", "", message.scene_id};
   start_us_ = clock_.monotonicUs();
-  beginImages();
-  sayCameraInfo();
+  if (cameras_) {
+    cameras_->beginScene(message, *scene_);
+    cameras_->sayInfo(message.utime);
+  }
   say(sim_truth_t::SAMPLE);
   sayStates();
-}
-
-void SimNode::placeCameras() {
-  if (cameras_ && cameras_set_up_ == message_.set_up_seed)
-    return;
-  cameras_set_up_ = message_.set_up_seed;
-  CameraRigOptions placed = *setup_.cameras;
-  placed.noise *= drawImageNoise(setup_.uncertainty, cameras_set_up_);
-  for (std::size_t i = 0; i < placed.cameras.size(); ++i) {
-    model::Camera& camera = placed.cameras[i].camera;
-    camera = movedCamera(camera,
-                         drawCameraErrors(setup_.uncertainty, static_cast<int>(i), cameras_set_up_),
-                         scene_->errors().room);
-  }
-  cameras_ = std::make_unique<CameraRig>(placed, setup_.experiment.arm, setup_.experiment.hand,
-                                         scene_->errors().ball.radius);
-}
-
-void SimNode::beginImages() {
-  if (!setup_.cameras)
-    return;
-  placeCameras();
-  const auto us = [&](double seconds) {
-    return message_.utime + std::llround(std::min(seconds, message_.duration) * 1e6);
-  };
-  cameras_->begin(message_.scene_id, message_.seed, us(message_.camera_start),
-                  us(message_.camera_end), scene_->target());
-  cameras_->add(scene_->snapshot(message_.utime));
 }
 
 void SimNode::stepLockstep() {
@@ -274,8 +238,8 @@ void SimNode::afterTick() {
   }
   if (scene_->tick() % kTruthTicks == 0)
     say(sim_truth_t::SAMPLE);
-  if (scene_->tick() % kCameraInfoTicks == 0)
-    sayCameraInfo();
+  if (cameras_ && scene_->tick() % kCameraInfoTicks == 0)
+    cameras_->sayInfo(stamp().utime);
   sayStates();
 }
 
@@ -311,15 +275,6 @@ void SimNode::repeatEvents() {
   next_repeat_us_ = clock_.monotonicUs() + kEventRepeatUs;
 }
 
-void SimNode::sayCameraInfo() {
-  if (!setup_.cameras)
-    return;
-  for (const RigCamera& camera : setup_.cameras->cameras) {
-    camera_info_t message = cameraInfo(camera, stamp().utime);
-    camera_infos_.publish(message);
-  }
-}
-
 void SimNode::sayLanding(const SceneEvent* landed) {
   if (!landings_ || curtain_said_)
     return;
@@ -328,18 +283,9 @@ void SimNode::sayLanding(const SceneEvent* landed) {
   landings_->publish(message);
 }
 
-void SimNode::sayImages() {
-  while (cameras_ && cameras_->nextImage(rendered_)) {
-    image_t message = image(rendered_);
-    images_[static_cast<std::size_t>(rendered_.camera)].publish(message);
-  }
-}
-
 void SimNode::end(const std::string& state, const std::string& note) {
-  // The last images are still being drawn: some ten, a few milliseconds each.
   if (cameras_)
-    cameras_->flush();
-  sayImages();
+    cameras_->finish();
   if (scene_->healthy()) {
     sim_truth_t message =
         truth(stamp(), sim_truth_t::FINISHED, scene_->ball(), scene_->state().q.arm);

@@ -9,9 +9,9 @@
 #include "messaging/endpoint.h"
 #include "messaging/node.h"
 #include "messaging/process.h"
-#include "sim_bullet/camera_rig.h"
 #include "sim_bullet/command_watch.h"
 #include "sim_bullet/scene.h"
+#include "sim_bullet/scene_cameras.h"
 #include "sim_bullet/scene_messages.h"
 
 namespace fastball::sim_bullet {
@@ -60,8 +60,6 @@ class SimNode : public messaging::Node {
   template <class Command>
   void take(const Command& message, CommandWatch& watch, std::optional<Command>* newest);
   void begin(const scene_t& message);
-  void beginImages();
-  void placeCameras();
   void sayLanding(const SceneEvent* landed);
   void stepLockstep();
   void stepRealtime();
@@ -71,8 +69,6 @@ class SimNode : public messaging::Node {
   /// The events of the last scene that is over.
   void repeatEvents();
   void sayStates();
-  void sayCameraInfo();
-  void sayImages();
   void afterTick();
   /// The command that holds through the tick; says once a scene if it asks for more than the hand can do.
   HandCommand heldCommand();
@@ -83,14 +79,11 @@ class SimNode : public messaging::Node {
   const messaging::Endpoint& endpoint_;
   const messaging::Clock& clock_;
   SimulatorSetup setup_;
-  std::unique_ptr<CameraRig> cameras_;  ///< as they really stand
-  int64_t cameras_set_up_ = 0;          ///< seed of the set-up in which they stand so
 
   messaging::Publisher<arm_state_t> arm_states_;
   messaging::Publisher<hand_state_t> hand_states_;
   messaging::Publisher<sim_truth_t> truths_;
-  messaging::Publisher<camera_info_t> camera_infos_;
-  std::vector<messaging::Publisher<image_t>> images_;
+  std::optional<SceneCameras> cameras_;
   std::optional<messaging::Publisher<landing_t>> landings_;  ///< where there are no images
 
   std::optional<scene_t> next_scene_;
@@ -110,7 +103,6 @@ class SimNode : public messaging::Node {
   int64_t next_repeat_us_ = 0;            ///< monotonic
   bool braking_ = false;                  ///< real time: the watchdog has the arm
   bool curtain_said_ = false;             ///< LANDING of the scene
-  RenderedImage rendered_;
   messaging::NodeState state_;
 };
 
