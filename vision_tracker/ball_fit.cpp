@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vision_tracker/background.h"
+#include "vision_tracker/blurred_sphere.h"
 
 namespace fastball::vision_tracker {
 namespace {
@@ -48,128 +49,6 @@ Monomials monomialsOf(const Eigen::Vector2d& w) {
   Monomials m;
   m << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
   return m;
-}
-
-/// Where a pixel is relative to the outline.
-struct Edge {
-  double inside = 0;        ///< [px], distance from the outline, positive within
-  Eigen::Vector2d outward;  ///< unit normal of the outline
-  double per_radius = 1;    ///< d inside / d radius
-  double slope =
-      0;  ///< [1/px], how fast the distance from the middle, 1 at the outline, grows outwards
-  Eigen::Vector2d w;                ///< the place in a disc of radius 1
-  Eigen::Matrix<double, 2, 3> w_x;  ///< d w / d (centre, radius)
-};
-
-/// `unit_inverse` maps the outline divided by its mean radius onto the unit circle.
-[[gnu::always_inline]] inline Edge edgeAt(const Eigen::Vector2d& offset,
-                                          double radius,
-                                          const Eigen::Matrix2d& unit_inverse) {
-  Edge edge;
-  const double curvature = 1 / radius;
-  edge.w = curvature * (unit_inverse * offset);
-  const double rho = edge.w.norm();
-  edge.w_x << -curvature * unit_inverse, -curvature * edge.w;
-  if (rho < 0.05) {
-    edge.inside = radius;
-    edge.outward = Eigen::Vector2d::UnitX();
-    edge.slope = curvature;
-    return edge;
-  }
-  const Eigen::Vector2d gradient = (curvature / rho) * (unit_inverse.transpose() * edge.w);
-  edge.slope = gradient.norm();
-  const double per_slope = 1 / edge.slope;  // one division for all
-  edge.inside = (1 - rho) * per_slope;
-  edge.outward = per_slope * gradient;
-  edge.per_radius = rho * curvature * per_slope;
-  return edge;
-}
-
-/// What a blur makes of an edge at a distance of s standard deviations, with a standard normal z.
-struct BlurredEdge {
-  double share = 0;    ///< P(s + z > 0)
-  double density = 0;  ///< its derivative
-  double root = 0;     ///< E sqrt(max(0, s + z))
-  double root_s = 0;   ///< its derivative
-};
-
-/// Tables of them: cubics between entries, by values and slopes, good to 1e-6.
-class BlurTable {
- public:
-  BlurTable() {
-    for (int i = 0; i <= kEntries; ++i) {
-      const double s = kLowest + i * kSpacing;
-      const double density = normalDensity(s);
-      share_[i] = {0.5 * std::erfc(-s * 0.70710678118654752), density};
-      density_[i] = {density, -s * density};
-      // With s + z = y^2 the integrand is smooth.
-      constexpr double kDy = 0.01;
-      for (double y = kDy; y < 4.5; y += kDy) {
-        const double z = y * y - s;
-        const double weight = normalDensity(z) * 2 * y * kDy;
-        root_[i].value += weight * y;
-        root_[i].slope += weight * y * z;
-      }
-    }
-  }
-  BlurredEdge at(double s) const {
-    if (s >= kHighest) {
-      const double root = std::sqrt(s);
-      return {1, 0, root * (1 - 1 / (8 * s * s)), 0.5 / root};
-    }
-    if (s <= kLowest)
-      return {};
-    const double place = (s - kLowest) * kPerSpacing;
-    const int i = std::min(static_cast<int>(place), kEntries - 1);
-    const double t = place - i, rest = 1 - t;
-    const auto cubic = [&](const Entry* e) {
-      return rest * rest * (1 + 2 * t) * e[i].value + t * t * (3 - 2 * t) * e[i + 1].value +
-             kSpacing * t * rest * (rest * e[i].slope - t * e[i + 1].slope);
-    };
-    return {cubic(share_), cubic(density_), cubic(root_),
-            rest * root_[i].slope + t * root_[i + 1].slope};
-  }
-
- private:
-  struct Entry {
-    double value = 0, slope = 0;
-  };
-  static double normalDensity(double z) { return 0.3989422804014327 * std::exp(-0.5 * z * z); }
-
-  static constexpr int kEntries = 120;
-  static constexpr double kLowest = -5, kHighest = 7, kSpacing = 0.1, kPerSpacing = 10;
-  Entry share_[kEntries + 1], density_[kEntries + 1], root_[kEntries + 1];
-};
-
-/// The normal of a sphere (two axes of the disc, and towards the camera), zero outside of it, as it looks through a blur. At the
-/// limb it turns away from the camera within a pixel: without the blur the dark side would be drawn in.
-struct BlurredNormal {
-  Eigen::Vector3d normal;
-  Eigen::Matrix3d normal_x;      ///< d normal / d (centre, radius)
-  Eigen::Vector3d normal_sigma;  ///< [1/px], d normal / d sigma
-};
-
-/// @param s distance inside of the outline over the blur's `sigma` [px]
-inline BlurredNormal blurredNormal(const Edge& edge,
-                                   double s,
-                                   double sigma,
-                                   const BlurredEdge& blurred) {
-  const double share = blurred.share, density = blurred.density, per_sigma = 1 / sigma;
-  const Eigen::RowVector3d inside_x(edge.outward.x(), edge.outward.y(), edge.per_radius);
-  const Eigen::Vector2d outwards = -edge.w_x.leftCols<2>() * edge.outward;  // d w / d distance
-  const double rho = std::max(0.0, 1 - edge.inside * edge.slope);
-  // sqrt(1 - rho^2) = sqrt(1 + rho) sqrt(slope sigma) sqrt(s)
-  const double stretch = std::sqrt((1 + rho) * edge.slope * sigma);
-  const double facing = stretch * blurred.root;
-  const double facing_inside = stretch * blurred.root_s * per_sigma;
-  BlurredNormal n;
-  n.normal << share * edge.w - sigma * density * outwards, facing;
-  n.normal_x.topRows<2>() =
-      density * per_sigma * (edge.w + s * sigma * outwards) * inside_x + share * edge.w_x;
-  n.normal_x.row(2) = (facing_inside - facing * edge.slope / (2 * (1 + rho))) * inside_x;
-  n.normal_sigma << -density * per_sigma * s * edge.w - density * (1 + s * s) * outwards,
-      facing / 2 * per_sigma - facing_inside * s;
-  return n;
 }
 
 std::vector<Pixel> pixelsNear(const cv::Mat& image,
@@ -308,20 +187,7 @@ class Fit {
       e.gradient += residual * row.head<kParameters>();
     }
     e.information = squares.topLeftCorner<kParameters, kParameters>();
-    // What was known before of radius, blur and shading, and a breath of damping for what the pixels do not show.
-    const double weight = noise * noise / (guess_.radius_sigma * guess_.radius_sigma);
-    e.information(2, 2) += weight;
-    e.gradient[2] += weight * (guess_.outline.meanRadius() - x_[2]);
-    const double blur_weight = noise * noise / (kBlurSigma * kBlurSigma * blur_ * blur_);
-    e.information(3, 3) += blur_weight;
-    e.gradient[3] += blur_weight * (blur_ - x_[3]);
-    const double shading_weight = std::pow(noise / (kUneven + kUnevenShare * contrast_), 2);
-    const auto uneven = x_.segment<kCubic - 1>(5);
-    e.information.diagonal().segment<kCubic - 1>(5).array() += shading_weight;
-    e.gradient.segment<kCubic - 1>(5) -= shading_weight * uneven;
-    e.information.diagonal().array() += 1e-6;
-    e.cost = e.square_sum + weight * std::pow(guess_.outline.meanRadius() - x_[2], 2) +
-             blur_weight * std::pow(blur_ - x_[3], 2) + shading_weight * uneven.squaredNorm();
+    addKnown(noise, e);
     return e;
   }
 
@@ -356,6 +222,23 @@ class Fit {
   }
 
  private:
+  /// What was known before of radius, blur and shading, and a breath of damping for what the pixels do not show.
+  void addKnown(double noise, Equations& e) const {
+    const double weight = noise * noise / (guess_.radius_sigma * guess_.radius_sigma);
+    e.information(2, 2) += weight;
+    e.gradient[2] += weight * (guess_.outline.meanRadius() - x_[2]);
+    const double blur_weight = noise * noise / (kBlurSigma * kBlurSigma * blur_ * blur_);
+    e.information(3, 3) += blur_weight;
+    e.gradient[3] += blur_weight * (blur_ - x_[3]);
+    const double shading_weight = std::pow(noise / (kUneven + kUnevenShare * contrast_), 2);
+    const auto uneven = x_.segment<kCubic - 1>(5);
+    e.information.diagonal().segment<kCubic - 1>(5).array() += shading_weight;
+    e.gradient.segment<kCubic - 1>(5) -= shading_weight * uneven;
+    e.information.diagonal().array() += 1e-6;
+    e.cost = e.square_sum + weight * std::pow(guess_.outline.meanRadius() - x_[2], 2) +
+             blur_weight * std::pow(blur_ - x_[3], 2) + shading_weight * uneven.squaredNorm();
+  }
+
   const std::vector<Pixel>& pixels_;
   const BallGuess& guess_;
   Eigen::Matrix2d unit_inverse_;
