@@ -14,6 +14,7 @@
 
 #include "launch/clock_check.h"
 #include "launch/experiment_node.h"
+#include "launch/experiment_processes.h"
 #include "launch/key_check.h"
 #include "launch/processes.h"
 #include "launch/silence_watch.h"
@@ -39,7 +40,6 @@ constexpr int64_t kSilentUs = 500'000;
 constexpr double kInterruptedGrace = 0.8;  // [s], twice: an interrupted run is over within 2 s
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
 constexpr double kHeartbeatPeriod = 1.1;  // [s]
-constexpr const char* kLogger = "logger";
 
 /// [s], between two HEARTBEATs.
 double beat(double silence_limit) {
@@ -47,55 +47,12 @@ double beat(double silence_limit) {
                            : messaging::Heartbeat::kPeriod;
 }
 
-/// The logger keeps all bytes as they come.
-bool hearsCommands(const std::string& name) {
-  return name != kLogger;
-}
-
-std::vector<ProcessCommand> commands(const RunSetup& setup) {
-  std::vector<std::string> shared = {"--lcm-url", setup.options.lcm_url, "--config",
-                                     setup.options.config};
-  if (setup.options.realtime)
-    shared.emplace_back("--realtime");
-  const std::string folder = programFolder() + "/fastball-";
-  std::vector<ProcessCommand> all = {{kLogger, folder + "logger", shared},
-                                     {"planner", folder + "planner", shared},
-                                     {"controller", folder + "controller", shared},
-                                     {"hand_server", folder + "hand-server", shared},
-                                     {"sim_bullet", folder + "sim-bullet", shared}};
-  if (setup.options.images)
-    all.push_back({"vision_tracker", folder + "vision-tracker", shared});
-  for (ProcessCommand& command : all) {
-    auto& arguments = command.arguments;
-    if (command.name == kLogger) {
-      arguments.insert(arguments.end(),
-                       {"--log", setup.log, "--seed", std::to_string(setup.settings.seed),
-                        "--command-line", setup.command_line});
-    }
-    if (command.name == "sim_bullet" && !setup.options.uncertainty.empty()) {
-      arguments.insert(arguments.end(), {"--uncertainty", setup.options.uncertainty});
-    }
-    if (hearsCommands(command.name) && setup.key)
-      arguments.insert(arguments.end(), {"--key", setup.options.key});
-    if (command.name == "sim_bullet" && !setup.options.images)
-      arguments.emplace_back("--no-images");
-  }
-  return all;
-}
-
-std::vector<std::string> namesOf(const std::vector<ProcessCommand>& all) {
-  std::vector<std::string> names;
-  for (const ProcessCommand& command : all)
-    names.push_back(command.name);
-  return names;
-}
-
 /// The run while it goes on: one loop that hears, acts and watches the processes.
 class NetworkRun {
  public:
   NetworkRun(const RunSetup& setup, Progress& progress)
       : setup_(setup),
-        commands_(commands(setup)),
+        commands_(experimentProcesses(setup)),
         peers_(namesOf(commands_)),
         progress_(progress),
         endpoint_(setup.options.lcm_url, setup.key, "experiment"),
