@@ -43,7 +43,6 @@ class ExperimentNode : public messaging::Node {
   const std::string& error() const { return error_; }
   /// What a process that stays from run to run has made before; call before the first step().
   void continueAfter(int64_t throws_before) { settings_.throws_before = throws_before; }
-  int64_t throwsBefore() const { return settings_.throws_before; }
   /// Throws that are over.
   const std::vector<Throw>& throws() const { return throws_; }
   /// Wall time [s] that each of them took.

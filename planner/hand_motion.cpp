@@ -31,14 +31,6 @@ ThrowDirection throwDirection(const model::Arm& arm,
   return direction;
 }
 
-double throwRoll(const model::Arm& arm,
-                 const model::ArmMotion& motion,
-                 const Eigen::Vector3d& p_TBall) {
-  const Eigen::Vector3d v_T =
-      arm.X_WT(motion.q).linear().transpose() * (arm.pointJacobian(motion.q, p_TBall) * motion.qd);
-  return std::atan2(-v_T.x(), v_T.y());
-}
-
 model::HandMotion handMotion(const model::Arm& arm,
                              const model::Hand& hand,
                              const WristAngles& wrist,

@@ -25,11 +25,6 @@ ThrowDirection throwDirection(const model::Arm& arm,
                               const model::Hand& hand,
                               const model::ArmMotion& motion);
 
-/// The roll [rad] that turns y of H into the plane of the forearm and the ball's velocity, without flexion.
-double throwRoll(const model::Arm& arm,
-                 const model::ArmMotion& motion,
-                 const Eigen::Vector3d& p_TBall);
-
 /// The hand frame's motion that an arm motion makes, the wrist held.
 model::HandMotion handMotion(const model::Arm& arm,
                              const model::Hand& hand,

@@ -44,7 +44,6 @@ class ViewServer {
   std::string url() const;
   /// Serves until `stopped` says so; asks sixty times a second.
   void run(const std::function<bool()>& stopped);
-  std::size_t viewers() const { return viewers_.size(); }
   const Timeline& timeline() const { return log_ ? log_->timeline() : *live_; }
 
  private:
