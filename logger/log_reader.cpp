@@ -63,18 +63,25 @@ std::size_t LogReader::readFile(int64_t offset, char* bytes, std::size_t size) c
   return done;
 }
 
+/// Up to kWindowBytes, and no more than the file has behind `offset`.
+std::size_t LogReader::bytesOfWindow(int64_t offset) const {
+  return std::min(kWindowBytes,
+                  static_cast<std::size_t>(std::max<int64_t>(file_bytes_ - offset, 0)));
+}
+
 /// Copies up to `size` bytes. @return how many there are.
 std::size_t LogReader::readAt(int64_t offset, char* bytes, std::size_t size) {
   if (size > kWindowBytes)
     return readFile(offset, bytes, size);
-  const auto ahead = static_cast<std::size_t>(offset - window_offset_);
-  if (offset < window_offset_ || ahead + size > window_.size()) {
-    window_.resize(kWindowBytes);
+  const int64_t window_end = window_offset_ + static_cast<int64_t>(window_.size());
+  // Near its end no window holds more of the file than this one.
+  const int64_t needed = std::min(offset + static_cast<int64_t>(size), file_bytes_);
+  if (offset < window_offset_ || offset > window_end || needed > window_end) {
+    window_.resize(bytesOfWindow(offset));
     window_.resize(readFile(offset, window_.data(), window_.size()));
     window_offset_ = offset;
-    return readWindow(0, bytes, size);
   }
-  return readWindow(ahead, bytes, size);
+  return readWindow(static_cast<std::size_t>(offset - window_offset_), bytes, size);
 }
 
 std::size_t LogReader::readWindow(std::size_t ahead, char* bytes, std::size_t size) const {
@@ -146,7 +153,7 @@ void LogReader::skipDamage(int64_t from) {
 
 /// @return where the first record at or after `from` begins, or the end of the file.
 int64_t LogReader::findRecord(int64_t from) {
-  std::vector<char> window(kWindowBytes);
+  std::vector<char> window(bytesOfWindow(from));
   while (from < file_bytes_) {
     const std::size_t n = readAt(from, window.data(), window.size());
     if (n < kHeaderBytes)

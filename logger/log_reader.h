@@ -64,6 +64,7 @@ class LogReader {
   bool takeRecord(LogEntry& entry);
   void skipDamage(int64_t from);
   int64_t findRecord(int64_t from);
+  std::size_t bytesOfWindow(int64_t offset) const;
   std::size_t readAt(int64_t offset, char* bytes, std::size_t size);
   std::size_t readWindow(std::size_t ahead, char* bytes, std::size_t size) const;
   std::size_t readFile(int64_t offset, char* bytes, std::size_t size) const;
