@@ -29,13 +29,8 @@ bool sameQuestion(plan_request_t a, plan_request_t b) {
 
 class PlannerNode : public messaging::Node {
  public:
-  PlannerNode(messaging::Endpoint& endpoint,
-              const messaging::Clock& clock,
-              const PlannerConfig& config,
-              std::shared_ptr<const Atlas> atlas)
-      : clock_(clock),
-        planner_(config, {}, std::move(atlas)),
-        plans_(endpoint, messaging::kSwingPlan) {
+  PlannerNode(messaging::Endpoint& endpoint, const messaging::Clock& clock, AnswerRequest answer)
+      : clock_(clock), answer_(std::move(answer)), plans_(endpoint, messaging::kSwingPlan) {
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
                                        [this](const plan_request_t& m) { takeRequest(m); });
   }
@@ -83,14 +78,14 @@ class PlannerNode : public messaging::Node {
 
   void answer(const plan_request_t& request) {
     const int64_t start_us = clock_.monotonicUs();
-    const PlanResult result = planAimed(planner_, fromMessage(request));
+    const PlanResult result = answer_(fromMessage(request));
     answered_ = Answered{request, toMessage(result, request)};
     answered_->plan.plan_ms = 1e-3 * static_cast<double>(clock_.monotonicUs() - start_us);
     plans_.publish(answered_->plan);
   }
 
   const messaging::Clock& clock_;
-  Planner planner_;
+  AnswerRequest answer_;
   messaging::Publisher<swing_plan_t> plans_;
   std::deque<plan_request_t> waiting_;
   bool announced_ = false;
@@ -114,7 +109,17 @@ std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options) {
   const PlannerConfig config = loadConfig(config::experimentPath(options.config));
-  return std::make_unique<PlannerNode>(endpoint, clock, config, foundAtlas(config));
+  const auto planner =
+      std::make_shared<const Planner>(config, PredictDeparture(), foundAtlas(config));
+  return makeAnsweringNode(endpoint, clock, [planner](const ThrowRequest& request) {
+    return planAimed(*planner, request);
+  });
+}
+
+std::unique_ptr<messaging::Node> makeAnsweringNode(messaging::Endpoint& endpoint,
+                                                   const messaging::Clock& clock,
+                                                   AnswerRequest answer) {
+  return std::make_unique<PlannerNode>(endpoint, clock, std::move(answer));
 }
 
 }  // namespace fastball::planner

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "messaging/node.h"
 #include "messaging/process.h"
+#include "planner/plan.h"
 
 namespace fastball::planner {
 
@@ -14,5 +16,13 @@ namespace fastball::planner {
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const messaging::ProcessOptions& options);
+
+/// What is answered to a request.
+using AnswerRequest = std::function<PlanResult(const ThrowRequest&)>;
+
+/// The same with answers of another's making.
+std::unique_ptr<messaging::Node> makeAnsweringNode(messaging::Endpoint& endpoint,
+                                                   const messaging::Clock& clock,
+                                                   AnswerRequest answer);
 
 }  // namespace fastball::planner

@@ -73,7 +73,7 @@ class Conductor : public messaging::Node {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   using namespace fastball;
   static const launch::RunSettings kSettings = readSettings();
-  static fuzz::NodeTarget target("experiment", 50, [](auto& endpoint, const auto& clock) {
+  static fuzz::NodeTarget target("experiment", 500, [](auto& endpoint, const auto& clock) {
     return std::make_unique<Conductor>(endpoint, clock, kSettings);
   });
   target.hear(data, size);

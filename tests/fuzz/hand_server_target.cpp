@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   using namespace fastball;
   static bool realtime = false;
-  static fuzz::NodeTarget target("hand_server", 50, [](auto& endpoint, const auto& clock) {
+  static fuzz::NodeTarget target("hand_server", 500, [](auto& endpoint, const auto& clock) {
     messaging::ProcessOptions options;
     options.config = fuzz::experimentPath();
     options.realtime = realtime = !realtime;

@@ -3,7 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   using namespace fastball;
-  static fuzz::NodeTarget target("vision_tracker", 50, [](auto& endpoint, const auto& clock) {
+  static fuzz::NodeTarget target("vision_tracker", 500, [](auto& endpoint, const auto& clock) {
     messaging::ProcessOptions options;
     options.config = fuzz::experimentPath();
     return vision_tracker::makeNode(endpoint, clock, options);
