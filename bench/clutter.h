@@ -8,8 +8,8 @@
 
 namespace fastball::bench {
 
-/// What else moves and shines about a throw: a lamp that flickers on the wall, and a second ball which, throw by throw, hangs on a
-/// string and swings, rolls over the floor, is carried by, or is thrown the other way.
+/// What else moves and shines about a throw: a lamp that flickers on the wall, and a second ball which, throw by
+/// throw, hangs on a string and swings, rolls over the floor, is carried by, or is thrown the other way.
 class Clutter {
  public:
   Clutter(const sim_bullet::CameraRigOptions& rig, const config::Experiment& experiment);

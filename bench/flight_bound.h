@@ -25,10 +25,10 @@ struct FlightKnowledge {
   double clock_sigma = 0;  ///< [s], of each camera's clock against the first one's; 0: they are one
 };
 
-/// The Cramer-Rao bound of the landing: the covariance [m^2], in the target plane, below which no unbiased estimate of the flight
-/// (start, velocity, drag, and where they are uncertain the clocks of all cameras but the first) from these views comes. F = sum J^T J / sigma^2 + e_k e_k^T / sigma_k^2; bound = L F^-1 L^T. All
-/// derivatives are central differences of model::fly, model::land and the outline's centre: nothing is shared with the tracker's
-/// own linearisation.
+/// The Cramer-Rao bound of the landing: the covariance [m^2], in the target plane, below which no unbiased estimate of the
+/// flight (start, velocity, drag, and where they are uncertain the clocks of all cameras but the first) from these views
+/// comes. F = sum J^T J / sigma^2 + e_k e_k^T / sigma_k^2; bound = L F^-1 L^T. All derivatives are central differences of
+/// model::fly, model::land and the outline's centre: nothing is shared with the tracker's own linearisation.
 /// @param views in order of time
 /// @throw std::invalid_argument if the flight does not reach the plane, or the views do not determine it
 Eigen::Matrix2d landingBound(const model::BallState& start,

@@ -36,8 +36,8 @@ struct Knowledge {
   model::Target target;
 };
 
-/// The truth, but for errors drawn from a seed: of each camera's calibration, and of the target's centre [m] and normal [rad], per
-/// axis.
+/// The truth, but for errors drawn from a seed: of each camera's calibration, and of the target's centre [m] and
+/// normal [rad], per axis.
 Knowledge wrongKnowledge(const DrawnThrow& drawn,
                          const model::Target& target,
                          const vision_tracker::CalibrationSigma& calibration,

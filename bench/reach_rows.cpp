@@ -27,7 +27,8 @@ struct Setup {
   planner::PlannerConfig config = planner::loadConfig(config::defaultExperimentPath());
 };
 
-/// 2 to 4 m away, 60 degrees to either side, 0.8 m below to 0.8 m above the shoulder, the ring facing the robot within 45 degrees.
+/// 2 to 4 m away, 60 degrees to either side, 0.8 m below to 0.8 m above the shoulder, the ring
+/// facing the robot within 45 degrees.
 std::vector<model::Target> randomTargets(int count) {
   std::mt19937_64 random(kSeed);
   const auto uniform = [&](double low, double high) {

@@ -63,8 +63,8 @@ class LcmWay : public Way {
   int64_t tick_ = -1;
 };
 
-/// One socket that sends to the group and hears it, its own packets included, as LCM's do. A packet is a letter (who sent it), the
-/// tick, and as many bytes as LCM's packet has.
+/// One socket that sends to the group and hears it, its own packets included, as LCM's do. A packet is a letter
+/// (who sent it), the tick, and as many bytes as LCM's packet has.
 class BareWay : public Way {
  public:
   BareWay(const messaging::MulticastUrl& where, bool is_controller)

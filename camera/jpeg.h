@@ -6,8 +6,8 @@
 
 namespace fastball::camera {
 
-/// Compresses images as JPEG of at most `limit` bytes, at a quality that goes down by steps of ten where it must and stays there, so
-/// that images look alike.
+/// Compresses images as JPEG of at most `limit` bytes, at a quality that goes down by steps of ten where it must
+/// and stays there, so that images look alike.
 class JpegEncoder {
  public:
   JpegEncoder(int quality, std::size_t limit) : quality_(quality), limit_(limit) {}

@@ -33,9 +33,9 @@ struct CameraOptions {
 };
 
 /// A camera as a process: images and CAMERA_INFO out (once a second, and before the first image), and PLAN_REQUEST in if it waits
-/// for one. Its name is the channel in small letters; its state is one of opening, waiting (for its time or a request), publishing,
-/// ended. step() throws what the source threw; std::runtime_error if no image comes for five seconds or one has another
-/// size than the first; std::invalid_argument if calibration or wanted size are not the images', or the rate is unknown.
+/// for one. Its name is the channel in small letters; its state is one of opening, waiting (for its time or a request),
+/// publishing, ended. step() throws what the source threw; std::runtime_error if no image comes for five seconds or one has
+/// another size than the first; std::invalid_argument if calibration or wanted size are not the images', or the rate is unknown.
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const CameraOptions& options,

@@ -11,8 +11,8 @@
 
 namespace fastball::hand_server {
 
-/// What the hand does and feels from the grasp to the swing: its fingers settle about the ball; for a plan that adapts they try to
-/// open, if there is time; and it feels how the ball lies. Does not allocate after the first step.
+/// What the hand does and feels from the grasp to the swing: its fingers settle about the ball; for a plan that adapts
+/// they try to open, if there is time; and it feels how the ball lies. Does not allocate after the first step.
 class GripPreparation {
  public:
   /// @param since [us], when the fingers began to close.

@@ -18,17 +18,17 @@ struct AimSettings {
   double gate = 0;     ///< standard deviations beyond which a landing counts less
 };
 
-/// A Kalman filter on the biases of a set-up, with the flight's Jacobians: from the signed errors of measured landings it knows where the
-/// next throw would land, and the planner aims beside that. Its gain lies between 0 and 1, so that throws that scatter never move the
-/// aim farther than they scatter themselves.
+/// A Kalman filter on the biases of a set-up, with the flight's Jacobians: from the signed errors of measured
+/// landings it knows where the next throw would land, and the planner aims beside that. Its gain lies between 0
+/// and 1, so that throws that scatter never move the aim farther than they scatter themselves.
 class AimFilter {
  public:
   using Covariance = Eigen::Matrix<double, model::kLandingBiases, model::kLandingBiases>;
 
   explicit AimFilter(const AimSettings& settings);
 
-  /// A ball whose landing was predicted, with the biases known then, at `predicted` [m] has landed at `landing` [m] (right, up, from the
-  /// target's centre), measured with `covariance` [m^2]. Numbers too large to compute with change nothing.
+  /// A ball whose landing was predicted, with the biases known then, at `predicted` [m] has landed at `landing` [m] (right,
+  /// up, from the target's centre), measured with `covariance` [m^2]. Numbers too large to compute with change nothing.
   void observe(const model::LandingJacobian& H,
                const Eigen::Vector2d& predicted,
                const Eigen::Vector2d& landing,

@@ -10,8 +10,8 @@
 namespace fastball::launch {
 namespace {
 
-/// Its pngcairo terminal takes a fresh surface as large as the picture for each filled shape. glibc would give each of them back to the
-/// system and fault it in anew (mallopt(3)), a third of the time of a picture with many shapes.
+/// Its pngcairo terminal takes a fresh surface as large as the picture for each filled shape. glibc would give each of
+/// them back to the system and fault it in anew (mallopt(3)), a third of the time of a picture with many shapes.
 constexpr const char* kCommand =
     "MALLOC_MMAP_THRESHOLD_=1000000000 MALLOC_TRIM_THRESHOLD_=1000000000 exec gnuplot";
 

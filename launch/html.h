@@ -18,8 +18,8 @@ struct Html {
   }
 };
 
-/// Any bytes as text: the characters that mean something in HTML by their names, what is no UTF-8 and control characters (but line
-/// feed and tab) as U+FFFD. Good for an element's content and for an attribute in quotes.
+/// Any bytes as text: the characters that mean something in HTML by their names, what is no UTF-8 and control
+/// characters (but line feed and tab) as U+FFFD. Good for an element's content and for an attribute in quotes.
 Html escaped(const std::string& text);
 
 /// A file's name as the relative address of that file, to be put between quotes.
@@ -58,8 +58,8 @@ Html htmlTable(const std::string& caption,
                const std::vector<HtmlColumn>& columns,
                const std::vector<std::vector<Html>>& rows);
 
-/// A picture that is there as `name`.svg and `name`.png, in the folder of the page, with a caption and the addresses of both and of
-/// its numbers.
+/// A picture that is there as `name`.svg and `name`.png, in the folder of the page, with a caption and the
+/// addresses of both and of its numbers.
 /// @param with_numbers there is also `name`.csv.
 Html htmlPicture(const std::string& name, const Html& caption, bool with_numbers);
 

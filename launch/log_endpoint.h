@@ -12,8 +12,8 @@ namespace fastball::launch {
 /// The door to a recorded run: whoever subscribes hears from it what a log holds, whatever its age. Nothing can be said.
 class LogEndpoint : public messaging::Endpoint {
  public:
-  /// Hands every message of the log that decodes and breaks no rule to those who have subscribed to its channel, in the order of the
-  /// file; damage is stepped over.
+  /// Hands every message of the log that decodes and breaks no rule to those who have subscribed to its channel,
+  /// in the order of the file; damage is stepped over.
   /// @throw std::invalid_argument if the file cannot be read or holds no message at all.
   void play(const std::string& path);
 

@@ -5,8 +5,8 @@
 
 namespace fastball::launch {
 
-/// The experiment file that a log's run had, with all the files it names: put into a temporary folder from the record beside the log
-/// while this object lives.
+/// The experiment file that a log's run had, with all the files it names: put into a temporary folder from the
+/// record beside the log while this object lives.
 class RecordedConfiguration {
  public:
   /// @param named an experiment file to be taken in place of the recorded one; empty: the recorded one, or the default experiment

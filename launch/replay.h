@@ -30,9 +30,9 @@ class ReplayConsole {
   virtual void show(double time, double share, int64_t said) = 0;
 };
 
-/// Says the messages of a log again, at their recorded intervals divided by the speed; a pause moves all that follows. Channels that
-/// make a robot move (ARM_COMMAND, HAND_COMMAND, THROW_START, SCENE, ESTOP) are passed over unless asked for; what counts is the
-/// name under which a message would be said.
+/// Says the messages of a log again, at their recorded intervals divided by the speed; a pause moves all that
+/// follows. Channels that make a robot move (ARM_COMMAND, HAND_COMMAND, THROW_START, SCENE, ESTOP) are passed over
+/// unless asked for; what counts is the name under which a message would be said.
 /// @return how many messages were said.
 /// @throw std::invalid_argument if the log cannot be read.
 int64_t replayLog(const std::string& log_path,

@@ -25,8 +25,8 @@ bool MessageComparison::isAnswer(const Bytes& message) const {
   return fields && namesInput(*fields);
 }
 
-/// Members that say what the message answers, and how many with the same ones came before. A message that names no tick or frame is
-/// known by its place in the row alone.
+/// Members that say what the message answers, and how many with the same ones came before. A message that names no
+/// tick or frame is known by its place in the row alone.
 MessageComparison::Key MessageComparison::keyOf(const std::string& channel,
                                                 const Bytes& message,
                                                 std::map<Key, int64_t>& counts) const {

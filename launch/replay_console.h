@@ -9,8 +9,8 @@
 
 namespace fastball::launch {
 
-/// The terminal of `fastball replay`: the space bar pauses and goes on, Ctrl-C ends, and one line says how far it is. Where standard
-/// input is no terminal, nothing but the signals is heard.
+/// The terminal of `fastball replay`: the space bar pauses and goes on, Ctrl-C ends, and one line says how far it
+/// is. Where standard input is no terminal, nothing but the signals is heard.
 class TerminalConsole : public ReplayConsole {
  public:
   explicit TerminalConsole(bool paused);

@@ -101,8 +101,8 @@ class Rerun {
           fmt::format("the {} did not start within {} s", part.name, kStartTimeout));
   }
 
-  /// What the recording says next is waited for before the recording goes on: that keeps the process as far behind its inputs as it
-  /// was. Only an answer that names its input may stand a little before it in the log, and is waited for a little later.
+  /// What the recording says next is waited for before the recording goes on: that keeps the process as far behind its inputs
+  /// as it was. Only an answer that names its input may stand a little before it in the log, and is waited for a little later.
   void feed(const logger::LogEntry& entry) {
     while (!awaited_.empty() && awaited_.front().first + kLogOrderUs < entry.utime) {
       await(awaited_.front().second);

@@ -23,8 +23,8 @@ struct ThrowRecord {
   std::vector<ball_track_t> track;  ///< in order
 };
 
-/// Hears all throws of a run or of a log (launch/log_endpoint.h), by their number: subscribes to what a record is made of. `throws` must
-/// outlive the endpoint.
+/// Hears all throws of a run or of a log (launch/log_endpoint.h), by their number: subscribes to what a record is
+/// made of. `throws` must outlive the endpoint.
 void recordThrows(messaging::Endpoint& endpoint, std::map<int64_t, ThrowRecord>& throws);
 
 }  // namespace fastball::launch

@@ -6,8 +6,8 @@
 
 namespace fastball::logger {
 
-/// An LCM log file being written. Its own writing, because LCM's cannot say which records reached the disk and leaves half a record
-/// where there was no room for the whole.
+/// An LCM log file being written. Its own writing, because LCM's cannot say which records reached the disk and
+/// leaves half a record where there was no room for the whole.
 class LogFile {
  public:
   /// Creates the file or empties it. @throw std::invalid_argument if it cannot; names path and reason.

@@ -19,9 +19,9 @@ struct RecorderOptions {
   int keep = 0;             ///< so many files are kept and older ones removed, 0: all
 };
 
-/// Writes messages to a log file or a row of them, on a thread of its own: whoever receives never waits for the disk. While the
-/// disk is slow or full, messages wait in a bounded buffer; what does not fit is dropped and counted, and writing goes on when there
-/// is room again.
+/// Writes messages to a log file or a row of them, on a thread of its own: whoever receives never waits for the
+/// disk. While the disk is slow or full, messages wait in a bounded buffer; what does not fit is dropped and
+/// counted, and writing goes on when there is room again.
 class Recorder {
  public:
   /// @throw std::invalid_argument if the file cannot be created.

@@ -35,8 +35,8 @@ class PeerWatch {
 
   /// To be called after every drain, and by wakeUs(). @return what is new, each thing once.
   std::vector<PeerNews> update();
-  /// "nothing has been heard of robot (controller, sim_bullet) for 0.49 s (silence_limit 0.5 s)", on all who are silent now, as of
-  /// when it was noticed; empty: nobody is.
+  /// "nothing has been heard of robot (controller, sim_bullet) for 0.49 s (silence_limit 0.5 s)", on all who are
+  /// silent now, as of when it was noticed; empty: nobody is.
   const std::string& silence() const { return silence_; }
   /// Monotonic time [us] of the next look.
   int64_t wakeUs() const { return looked_us_ + look_us_; }

@@ -35,10 +35,10 @@ struct ProcessOptions {
   double duration_s = 0;     ///< end after this wall time, 0: run until told to stop
 };
 
-/// Runs a node over LCM until SIGINT or SIGTERM, node.finished(), or duration_s: waits on the file
-/// descriptor until a message comes or a wake time is reached, drains, steps, says the HEARTBEAT.
-/// Ends with node.shutDown() and a last HEARTBEAT. With a silence limit [s] it says HEARTBEAT that much faster, and tells the
-/// node, standard error and the others who has fallen silent and who is back. Whoever asks on CLOCK what time it is gets an answer.
+/// Runs a node over LCM until SIGINT or SIGTERM, node.finished(), or duration_s: waits on the file descriptor until a
+/// message comes or a wake time is reached, drains, steps, says the HEARTBEAT. Ends with node.shutDown() and a last
+/// HEARTBEAT. With a silence limit [s] it says HEARTBEAT that much faster, and tells the node, standard error and the
+/// others who has fallen silent and who is back. Whoever asks on CLOCK what time it is gets an answer.
 /// @return kExitDone, or kExitFailed if the node finished in state "failed".
 int runOverLcm(Node& node,
                LcmEndpoint& endpoint,

@@ -4,8 +4,8 @@
 
 namespace fastball::model {
 
-/// A quantity that moves, with its first and second derivative in time. The operations below carry the derivatives along (truncated
-/// Taylor series).
+/// A quantity that moves, with its first and second derivative in time. The operations below carry the derivatives
+/// along (truncated Taylor series).
 struct BaseValue {
   double q = 0, qd = 0, qdd = 0;
 };

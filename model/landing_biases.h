@@ -8,8 +8,8 @@
 
 namespace fastball::model {
 
-/// What a set-up adds to every throw of it, beside what its models say: drag (share of the ball's own); velocity of the leaving ball
-/// towards the target, to its left and up [m/s]; place of the target, right and up in its plane [m].
+/// What a set-up adds to every throw of it, beside what its models say: drag (share of the ball's own); velocity of the
+/// leaving ball towards the target, to its left and up [m/s]; place of the target, right and up in its plane [m].
 inline constexpr int kLandingBiases = 6;
 using LandingBiases = Eigen::Matrix<double, kLandingBiases, 1>;
 /// d landing (right, up) [m] / d biases.

@@ -53,10 +53,10 @@ using FingerForces = std::array<double, kFingers>;
 /// How much later than the command [us] each finger is told what to do, so that all obey at once though their dead times differ.
 using FingerTimes = std::array<int64_t, kFingers>;
 
-/// The fingers' targets from the command to let go to the open hand. The retreat goes by FingerRetreat along the way ratio S, S the
-/// quintic from 0 to 1 in the relaxation time; the thumb's force alone fades as (1 - S)^2. The thumb, towards which the ball
-/// flies, opens as soon as one finger feels the ball no more: then no finger presses on it to speak of. The others open after
-/// the relaxation. No function allocates.
+/// The fingers' targets from the command to let go to the open hand. The retreat goes by FingerRetreat along the
+/// way ratio S, S the quintic from 0 to 1 in the relaxation time; the thumb's force alone fades as (1 - S)^2. The
+/// thumb, towards which the ball flies, opens as soon as one finger feels the ball no more: then no finger presses
+/// on it to speak of. The others open after the relaxation. No function allocates.
 class ReleaseMotion {
  public:
   ReleaseMotion() = default;

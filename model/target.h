@@ -5,9 +5,9 @@
 
 namespace fastball::model {
 
-/// The net's ring, and the plane in which landings are given: origin at its centre, first axis to the right seen from the robot
-/// (horizontal, but in a ring that lies nearly flat), second axis square to it. The second axis points up in a ring that faces the
-/// robot, and away from the robot in one that faces up.
+/// The net's ring, and the plane in which landings are given: origin at its centre, first axis to the right seen
+/// from the robot (horizontal, but in a ring that lies nearly flat), second axis square to it. The second axis
+/// points up in a ring that faces the robot, and away from the robot in one that faces up.
 struct Target {
   Eigen::Vector3d p_WTarget = Eigen::Vector3d::Zero();  ///< [m], centre of the ring
   Eigen::Vector3d n_WTarget =

@@ -9,8 +9,8 @@
 
 namespace fastball::planner {
 
-/// The targets for which an atlas holds throws. Joint 1 turns about the vertical, and so does gravity's world: a throw to a target
-/// at some azimuth is the throw to the target straight ahead, turned. So distance and height are enough.
+/// The targets for which an atlas holds throws. Joint 1 turns about the vertical, and so does gravity's world: a throw
+/// to a target at some azimuth is the throw to the target straight ahead, turned. So distance and height are enough.
 struct AtlasGrid {
   Eigen::Vector2d distance = Eigen::Vector2d::Zero();  ///< [m], horizontal, from and to
   Eigen::Vector2d height = Eigen::Vector2d::Zero();    ///< [m], world z, from and to
@@ -94,8 +94,8 @@ class Atlas {
   /// Whether a throw inside the limits leads to a node.
   bool holdsThrow(int node) const;
 
-  /// Throws from the nodes around a target: of each layer of that kind, for each sort of throw at these nodes one. It is interpolated
-  /// if all four nodes are alike (or three, which then define a plane), else it is that of the nearest node.
+  /// Throws from the nodes around a target: of each layer of that kind, for each sort of throw at these nodes one. It is
+  /// interpolated if all four nodes are alike (or three, which then define a plane), else it is that of the nearest node.
   std::vector<AtlasThrow> near(double distance, double height, ThrowKind kind) const;
 
  private:

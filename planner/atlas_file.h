@@ -26,8 +26,8 @@ struct FoundAtlas {
 };
 FoundAtlas loadAtlas(const PlannerConfig& config, const std::filesystem::path& path);
 
-/// Writes the file whole or not at all: others that read or write it meanwhile see the old one or the new one. The same atlas makes
-/// the same bytes.
+/// Writes the file whole or not at all: others that read or write it meanwhile see the old one or the new one. The
+/// same atlas makes the same bytes.
 /// @throw std::runtime_error with one sentence if the file cannot be written.
 void saveAtlas(const PlannerConfig& config, const Atlas& atlas, const std::filesystem::path& path);
 

@@ -70,8 +70,8 @@ class LayerBuilder {
     return found;
   }
 
-  /// Of the nodes that the family's start leads to, the one with the greatest cost: from there on everything becomes easier. Negative:
-  /// there is none.
+  /// Of the nodes that the family's start leads to, the one with the greatest cost: from there on everything
+  /// becomes easier. Negative: there is none.
   int hardest() {
     int hardest = -1;
     std::optional<AtlasThrow> best;

@@ -53,7 +53,8 @@ const Entry& expEntry() {
   return entry;
 }
 
-/// Coefficients of u, u^3, u^5, u^7: about phase 0 the shape less 1 is odd and meets 1 - e^-u at u = kTurn with three derivatives.
+/// Coefficients of u, u^3, u^5, u^7: about phase 0 the shape less 1 is odd and meets 1 - e^-u at u
+/// = kTurn with three derivatives.
 Eigen::Vector4d turnCoefficients() {
   const double T = kTurn, e = std::exp(-T);
   Eigen::Matrix4d A;

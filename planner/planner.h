@@ -14,9 +14,9 @@
 
 namespace fastball::planner {
 
-/// Plans throws. Strategy `paper`: the kinetic chain. Strategy `robust`: through a release window where one is within reach, else
-/// the kinetic chain with joint 2 and the shortest flight. From an atlas where there is one, else from the stored starts. Answers depend on the request
-/// and the atlas alone.
+/// Plans throws. Strategy `paper`: the kinetic chain. Strategy `robust`: through a release window where one is
+/// within reach, else the kinetic chain with joint 2 and the shortest flight. From an atlas where there is one,
+/// else from the stored starts. Answers depend on the request and the atlas alone.
 class Planner {
  public:
   /// @param departure how the ball leaves the hand; default: elastic, with the configuration's fingers.

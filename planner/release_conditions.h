@@ -21,8 +21,8 @@ class ReleaseConditions {
     double hand_lead = 0;
     /// Not positive: the ball comes through the ring from its front, no flatter than the task asks.
     double grazing = -1;
-    /// Ball velocity along x and z of H [m/s] (Eq. 25); ball at the flight time minus the point aimed at [m]: in front of the target
-    /// plane, to the right and up in it.
+    /// Ball velocity along x and z of H [m/s] (Eq. 25); ball at the flight time minus the point aimed at [m]: in
+    /// front of the target plane, to the right and up in it.
     Eigen::Matrix<double, kEqualities, 1> equalities;
   };
   struct Gradients {

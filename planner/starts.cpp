@@ -7,9 +7,9 @@ namespace fastball::planner {
 namespace {
 
 // All were found by searches with the default arm, hand and ball: 900 random starts for each of 13 targets 2 to 4 m away, -0.8 to
-// 0.8 m high, up to 60 degrees to the side, and 600 more for each of 8 far and high ones with the shoulder free. Of the optima found,
-// these are the fewest from which every target is solved that any of the optima solves, at more than 0.999 of the best speed found:
-// on 120 other targets with the shoulder held, on 72 with it free, half of them far and high.
+// 0.8 m high, up to 60 degrees to the side, and 600 more for each of 8 far and high ones with the shoulder free. Of the
+// optima found, these are the fewest from which every target is solved that any of the optima solves, at more than 0.999 of
+// the best speed found: on 120 other targets with the shoulder held, on 72 with it free, half of them far and high.
 struct Stored {
   const char* name;
   double x[kSwingVariables];

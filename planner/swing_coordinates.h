@@ -4,9 +4,9 @@
 
 namespace fastball::planner {
 
-/// Coordinates in which the problem is less curved than in the parameters of Eq. (12): instead of each base function's amplitude its
-/// peak speed, amplitude times omega, instead of its c its value at the release. A change of omega then changes neither, while in
-/// the parameters the throws at a speed limit lie on a hyperbola. All other variables are the same.
+/// Coordinates in which the problem is less curved than in the parameters of Eq. (12): instead of each base function's
+/// amplitude its peak speed, amplitude times omega, instead of its c its value at the release. A change of omega then changes
+/// neither, while in the parameters the throws at a speed limit lie on a hyperbola. All other variables are the same.
 SwingVector coordinatesOf(const SwingVector& x);
 
 /// The parameters back from their coordinates.

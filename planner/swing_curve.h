@@ -10,8 +10,8 @@
 
 namespace fastball::planner {
 
-/// Decision variables of Eq. (15). Time is counted from the release (t = 0): a common shift of all phases is no freedom. The first
-/// sixteen are the parameters of four base functions.
+/// Decision variables of Eq. (15). Time is counted from the release (t = 0): a common shift of all phases is no
+/// freedom. The first sixteen are the parameters of four base functions.
 enum SwingVariable {
   kAlpha1,
   kOmega1,

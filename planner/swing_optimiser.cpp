@@ -15,8 +15,8 @@ namespace {
 constexpr double kTolerance = 1e-5;
 // [m^2/s^2], of the objective: about 1e-5 m/s.
 constexpr double kSettled = 5e-6;
-// A search that has had so many looks is given up if it is slower than a known solution by more than the handicap [m/s], and after
-// twice as many if it still breaks a constraint by so much.
+// A search that has had so many looks is given up if it is slower than a known solution by more than the handicap
+// [m/s], and after twice as many if it still breaks a constraint by so much.
 constexpr int kFairChance = 30;
 constexpr double kHandicap = 0.4, kHopeless = 0.03;
 constexpr double kFlightPrice = 3;  // [1/s], in the objective
@@ -32,7 +32,8 @@ constexpr int kRepair = 12;
 constexpr int kProjections = 4;
 constexpr double kProjectable = 0.3, kProjected = 1e-4, kNormalDamping = 1e-9;
 
-/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, the time of flight, or the distance from given variables.
+/// What is minimised: minus Eq. (15) with K_r a multiple of the identity, the time of flight, or
+/// the distance from given variables.
 class Objective {
  public:
   Objective(ScaledSwing& swing, SwingGoal goal, double to_beat)
@@ -62,8 +63,8 @@ class Objective {
     return result;
   }
 
-  /// The best point looked at: of those that keep the constraints the one nearest to the goal, else the one that breaks them least. A search that is ended or
-  /// gives up may leave off elsewhere.
+  /// The best point looked at: of those that keep the constraints the one nearest to the goal, else the one that
+  /// breaks them least. A search that is ended or gives up may leave off elsewhere.
   const std::vector<double>& best() const { return best_; }
   double bestViolation() const { return best_violation_; }
 
@@ -169,8 +170,8 @@ void minimise(ScaledSwing& swing, Objective& wanted, int max_evaluations, std::v
   }
 }
 
-/// The shortest step to where the linearised constraints hold: onto the equalities, and onto every inequality that would be exceeded
-/// without.
+/// The shortest step to where the linearised constraints hold: onto the equalities, and onto every inequality that
+/// would be exceeded without.
 Eigen::VectorXd stepOnto(const ScaledSwing::Values& values, const ScaledSwing::Gradients& slopes) {
   const Eigen::Index equalities = values.equalities.size();
   std::vector<Eigen::Index> active;

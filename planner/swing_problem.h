@@ -13,9 +13,9 @@ namespace fastball::planner {
 
 /// What Eq. (15) asks of parameters x. Inequalities hold where <= 0, equalities where 0.
 ///
-/// The swing's limits hold at every time, not only at samples: a constraint is the highest point of one limit in one window of time.
-/// It is found on a grid and between the grid's points by parabolas. Because nothing in the motion has a kink, the derivative of such
-/// a peak by x is that of the limit at the peak's time.
+/// The swing's limits hold at every time, not only at samples: a constraint is the highest point of one limit in
+/// one window of time. It is found on a grid and between the grid's points by parabolas. Because nothing in the
+/// motion has a kink, the derivative of such a peak by x is that of the limit at the peak's time.
 class SwingProblem {
  public:
   static constexpr int kEqualities = ReleaseConditions::kEqualities;

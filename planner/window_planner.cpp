@@ -13,7 +13,8 @@ namespace fastball::planner {
 namespace {
 
 constexpr int kAimRounds = 8;
-// Every stored throw has so many looks before the best few go on; none of them with a cost above `kHopeless` comes inside the limits.
+// Every stored throw has so many looks before the best few go on; none of them with a cost above
+// `kHopeless` comes inside the limits.
 constexpr int kFirstLook = 20;
 constexpr std::size_t kContenders = 3;
 constexpr double kHopeless = 5e3;

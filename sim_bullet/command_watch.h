@@ -16,8 +16,8 @@ class CommandWatch {
   void beginScene(int64_t scene_id);
   /// A state of this tick was said, which may be answered once more.
   void stateSaid(int64_t tick);
-  /// @return false if the command is not of the sender that has the scene. One that is merely late is accepted. `sender()`: who it
-  /// is, as far as that is known.
+  /// @return false if the command is not of the sender that has the scene. One that is merely late is accepted.
+  /// `sender()`: who it is, as far as that is known.
   template <class Command, class Sender>
   bool accepts(Command command, const Sender& sender) {
     const Stamp stamp{command.scene_id, command.tick, command.seq};

@@ -7,8 +7,8 @@
 
 namespace fastball::sim_bullet {
 
-/// Holds the ball in the hand until the fingers do: a spring and a damper, for place and orientation, between the ball and a point
-/// of the hand. What it does to the ball it does to the hand with the opposite sign.
+/// Holds the ball in the hand until the fingers do: a spring and a damper, for place and orientation, between the
+/// ball and a point of the hand. What it does to the ball it does to the hand with the opposite sign.
 class Feeder {
  public:
   /// @param p_HBall where it holds the ball [m]. @param frequency of the ball on the spring [rad/s].

@@ -22,9 +22,9 @@ struct PixelTrackerOptions {
   double blur = 0.8;                 ///< [px], standard deviation of lens and pixel together
 };
 
-/// Follows a ball through the images of one camera that stands still, without any calibration: round things of the right size that
-/// differ from the learned background are linked to paths, each predicted from its last three places. A bounce ends a path
-/// and begins another.
+/// Follows a ball through the images of one camera that stands still, without any calibration: round things of the
+/// right size that differ from the learned background are linked to paths, each predicted from its last three
+/// places. A bounce ends a path and begins another.
 class PixelTracker {
  public:
   PixelTracker(const cv::Size& size, const PixelTrackerOptions& options);
@@ -32,9 +32,9 @@ class PixelTracker {
   /// The next image, CV_8U of the size given, at a time after the last one's.
   void add(const cv::Mat& image, double time);
 
-  /// The ball's paths in order of time, at most one sighting an image: where several things moved at a time, the one with the longer
-  /// path is the ball. Paths of fewer than four sightings, or of less than two diameters from end to end, are none;
-  /// nor are those of things of quite another size than the longest path's.
+  /// The ball's paths in order of time, at most one sighting an image: where several things moved at a time, the
+  /// one with the longer path is the ball. Paths of fewer than four sightings, or of less than two diameters from
+  /// end to end, are none; nor are those of things of quite another size than the longest path's.
   std::vector<PixelSighting> track() const;
 
  private:

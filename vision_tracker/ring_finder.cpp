@@ -43,8 +43,8 @@ Eigen::Vector2d acrossAt(const std::vector<Eigen::Vector2d>& images, std::size_t
                        : Eigen::Vector2d(1, 0);
 }
 
-/// Points of the ring's image about kSpacing apart and unit vectors across it; among them those two at the ends of its long axis: where the ring is seen from
-/// its edge, only these say where it is along the line that it looks like.
+/// Points of the ring's image about kSpacing apart and unit vectors across it; among them those two at the ends of its
+/// long axis: where the ring is seen from its edge, only these say where it is along the line that it looks like.
 std::vector<std::pair<std::size_t, Eigen::Vector2d>> placesAlong(
     const std::vector<Eigen::Vector2d>& images) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();

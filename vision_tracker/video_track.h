@@ -34,8 +34,8 @@ VideoTrack trackVideo(const std::string& path,
                       const std::optional<model::Camera>& camera,
                       const VideoBall& ball);
 
-/// A table: frame, time [s], u, v, radius [px], cov_uu, cov_uv, cov_vv [px^2]; for a calibrated camera also x, y, z [m], the place in
-/// the world that direction and apparent size say.
+/// A table: frame, time [s], u, v, radius [px], cov_uu, cov_uv, cov_vv [px^2]; for a calibrated camera also x, y,
+/// z [m], the place in the world that direction and apparent size say.
 std::string tableOf(const VideoTrack& track,
                     const std::optional<model::Camera>& camera,
                     double ball_radius);

@@ -23,8 +23,8 @@ struct Case {
   std::optional<Quantity> quantity = {};
 };
 
-/// What a campaign does. Set-up number i throws as `fastball run --seed (seed + i)` does: its errors that are fixed, and those drawn anew
-/// for each of its throws, follow from that seed.
+/// What a campaign does. Set-up number i throws as `fastball run --seed (seed + i)` does: its errors that are
+/// fixed, and those drawn anew for each of its throws, follow from that seed.
 struct Campaign {
   std::string version;    ///< of the program that began it
   int throws = 0;         ///< of each case

@@ -8,8 +8,8 @@
 /// Pictures of a campaign, each as NAME.png, NAME.svg and NAME.csv in a folder that exists.
 namespace fastball::launch {
 
-/// All landings in the target plane with ring, mean and ellipses. One picture "landings" with the strategies side by side, or where
-/// something is varied "landings-STRATEGY" with its cases; all axes are equal.
+/// All landings in the target plane with ring, mean and ellipses. One picture "landings" with the strategies side
+/// by side, or where something is varied "landings-STRATEGY" with its cases; all axes are equal.
 /// @return names of the pictures.
 /// @throw std::runtime_error if one cannot be drawn, as all of these do.
 std::vector<std::string> drawLandings(const CampaignResults& results, const std::string& folder);

@@ -12,9 +12,9 @@ struct ReportOutcome {
       missing;  ///< sentences: what the log lacks, and which pictures are not there for it
 };
 
-/// Writes the report of a run into `folder` (made if absent): index.html, its pictures as PNG and SVG (landings, loops, and of each
-/// throw throw-1, motion-1, release-1, fingers-1, residuals-1, ...), their numbers as CSV, release-1.txt with the caption, and
-/// throws.csv with a line each.
+/// Writes the report of a run into `folder` (made if absent): index.html, its pictures as PNG and SVG (landings,
+/// loops, and of each throw throw-1, motion-1, release-1, fingers-1, residuals-1, ...), their numbers as CSV,
+/// release-1.txt with the caption, and throws.csv with a line each.
 /// @param config experiment file; empty: that recorded beside the log, or else the default one.
 /// @throw std::invalid_argument if the log cannot be read.
 /// @throw std::runtime_error if the folder cannot be written to.

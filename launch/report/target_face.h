@@ -14,8 +14,8 @@ std::string ellipse95(const landing_t& landing);
 /// Half the widths [m] of that region's upright box.
 Eigen::Vector2d extent95(const landing_t& landing);
 
-/// gnuplot: two panels of the net's face as the robot sees it. The first shows the ring, the ring for the whole ball, and the landing
-/// with its ellipse and the truth; the second the landing enlarged.
+/// gnuplot: two panels of the net's face as the robot sees it. The first shows the ring, the ring for the whole
+/// ball, and the landing with its ellipse and the truth; the second the landing enlarged.
 struct FacePanels {
   std::string data, commands;
 };

@@ -7,8 +7,8 @@
 
 namespace fastball::launch {
 
-/// The moments of a throw that its pictures show, in seconds from their origin: the ball's departure, or where nobody felt it leave,
-/// the planned release, or else the first state of arm or hand.
+/// The moments of a throw that its pictures show, in seconds from their origin: the ball's departure, or where
+/// nobody felt it leave, the planned release, or else the first state of arm or hand.
 struct ThrowTimes {
   int64_t origin = 0;                    ///< [us]
   std::string of_origin;                 ///< "the departure of the ball", ...

@@ -26,8 +26,8 @@ struct FieldLine {
   std::optional<double>
       number;  ///< what can be plotted: the value, or the mean of an array; none: a text, or not finite
 };
-/// The members in lines: arrays of up to kSpelledOut values one line a value, longer ones as count, minimum, mean and maximum; bytes
-/// as their size, with that of the image if they are one. After `max_lines` one line says how many members are left out.
+/// The members in lines: arrays of up to kSpelledOut values one line a value, longer ones as count, minimum, mean and maximum;
+/// bytes as their size, with that of the image if they are one. After `max_lines` one line says how many members are left out.
 std::vector<FieldLine> fieldLines(const std::vector<messaging::MessageField>& fields,
                                   std::size_t max_lines = 500);
 inline constexpr std::size_t kSpelledOut = 8;

@@ -14,8 +14,8 @@ struct PlotStyle {
   bool blocks = true;  ///< eighths of a character cell (UTF-8); false: ASCII
 };
 
-/// `height` lines of at most `width` cells, the newest sample on the right, the largest of those drawn at the top and the smallest at
-/// the bottom. A sample that is not finite leaves its column empty.
+/// `height` lines of at most `width` cells, the newest sample on the right, the largest of those drawn at the top
+/// and the smallest at the bottom. A sample that is not finite leaves its column empty.
 std::vector<std::string> plot(const std::deque<double>& samples,
                               std::size_t width,
                               std::size_t height,

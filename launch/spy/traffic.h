@@ -40,8 +40,8 @@ class Traffic {
 
   /// All channels, by name. `now` [us since 1970].
   std::vector<ChannelReport> report(int64_t now) const;
-  /// The members of the newest message of a channel that decodes; empty where there is none. They look into this object: no longer
-  /// than until the next take().
+  /// The members of the newest message of a channel that decodes; empty where there is none. They look into this
+  /// object: no longer than until the next take().
   std::vector<messaging::MessageField> newestFields(const std::string& channel) const;
   int64_t unlisted() const { return unlisted_; }
 

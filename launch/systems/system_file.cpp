@@ -16,8 +16,8 @@ namespace {
 using config::Section;
 
 constexpr const char* kHere = "here";
-// Of a system on several machines. Simulated time comes in messages; what is dated by clocks of several machines are HEARTBEATs, and
-// their order must be that in which they were said: half of the time between two. Real cameras need less.
+// Of a system on several machines. Simulated time comes in messages; what is dated by clocks of several machines are
+// HEARTBEATs, and their order must be that in which they were said: half of the time between two. Real cameras need less.
 constexpr double kClockLimit = 0.05;  // [s]
 // Of a system on several machines. A HEARTBEAT every 100 ms is then 5 kB/s for the whole experiment, and four in a row are not
 // lost by chance.

@@ -24,8 +24,8 @@ const std::vector<std::string>& allChannels();
 /// What a process hears, by the name of its target. @throw std::out_of_range for no target.
 const std::vector<std::string>& channelsOf(const std::string& target);
 
-/// An input is a row of [channel, pause, length / 256, length % 256, message ...]; the last message is as long as it is. Any bytes
-/// are a conversation.
+/// An input is a row of [channel, pause, length / 256, length % 256, message ...]; the last message is as long as
+/// it is. Any bytes are a conversation.
 std::vector<Said> parse(const uint8_t* data, std::size_t size);
 Bytes serialise(const std::vector<Said>& conversation);
 

@@ -11,8 +11,8 @@
 
 namespace fastball::fuzz {
 
-/// A node behind the real LcmEndpoint, on LCM's transport through memory. It lives on from input to input, as a process does, and is
-/// made anew now and then. Ends the program where a process would end, and where the node says what breaks a rule.
+/// A node behind the real LcmEndpoint, on LCM's transport through memory. It lives on from input to input, as a process does,
+/// and is made anew now and then. Ends the program where a process would end, and where the node says what breaks a rule.
 class NodeTarget {
  public:
   using Make = std::function<std::unique_ptr<messaging::Node>(messaging::LcmEndpoint&,

@@ -32,8 +32,8 @@ Said said(const std::string& channel, const T& message) {
   return {channel, kMillisecond, bytes};
 }
 
-/// The plan with as few samples as its rule allows: a fuzzer is as quick as its inputs are short. Its numbers stay a motion from rest to
-/// rest.
+/// The plan with as few samples as its rule allows: a fuzzer is as quick as its inputs are short. Its numbers stay
+/// a motion from rest to rest.
 swing_plan_t thinned(swing_plan_t plan) {
   constexpr double kLongestStep = 0.1;  // [s]
   const auto every = static_cast<int32_t>(kLongestStep / plan.dt);

@@ -8,9 +8,9 @@
 
 namespace fastball::test_kit {
 
-/// Several machines in one test, without root: each host is a network, host name and mount namespace of its own, with the address
-/// 10.67.0.1, .2, ... on a switch (a bridge) and a multicast route through it. They share disk, processes and the clock; nothing of
-/// this machine's own network is touched. All that runs on a host ends with this object.
+/// Several machines in one test, without root: each host is a network, host name and mount namespace of its own, with
+/// the address 10.67.0.1, .2, ... on a switch (a bridge) and a multicast route through it. They share disk, processes
+/// and the clock; nothing of this machine's own network is touched. All that runs on a host ends with this object.
 class Hosts {
  public:
   /// Why such hosts cannot be had here, a sentence for GTEST_SKIP; empty: they can.

@@ -16,8 +16,8 @@ struct Mischief {
   uint64_t seed = 1;
 };
 
-/// Joins two LCM networks as a bad cable would: what is said on one is said on the other, but for the mischief. Works on a thread of its
-/// own from construction to destruction.
+/// Joins two LCM networks as a bad cable would: what is said on one is said on the other, but for the mischief.
+/// Works on a thread of its own from construction to destruction.
 class UnreliableRelay {
  public:
   UnreliableRelay(const std::string& url_a, const std::string& url_b, const Mischief& mischief);

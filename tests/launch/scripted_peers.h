@@ -19,8 +19,8 @@ struct ScriptedNode : messaging::Node {
   messaging::NodeState own_state;
 };
 
-/// All that the experiment talks to, as simple as can be: every order is obeyed at once, every throw lands 1 cm right of the centre.
-/// What is set to false is not answered.
+/// All that the experiment talks to, as simple as can be: every order is obeyed at once, every throw lands 1 cm
+/// right of the centre. What is set to false is not answered.
 class ScriptedPeers {
  public:
   explicit ScriptedPeers(messaging::LocalNetwork& network)

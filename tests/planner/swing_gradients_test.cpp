@@ -111,8 +111,8 @@ TEST_F(Gradients, OfEveryConstraintRow) {
         const SwingVector step = kStep * SwingVector::Unit(k);
         const auto high = problem.evaluate(start.x + step), low = problem.evaluate(start.x - step);
         for (int row = 0; row < static_cast<int>(problem.rows().size()); ++row) {
-          // Peaks far below their limit have no gradient; of two peaks as high as each other either may be followed; near the straight
-          // elbow differences have no meaning.
+          // Peaks far below their limit have no gradient; of two peaks as high as each other either may be
+          // followed; near the straight elbow differences have no meaning.
           if (at.inequalities[row] < -0.5 || at.inequalities[row] > 20)
             continue;
           const bool jumps = std::abs(high.peaks[row].time - low.peaks[row].time) > 1e-3;

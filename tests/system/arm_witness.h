@@ -13,8 +13,8 @@ class ArmWitness {
  public:
   void listen(messaging::Endpoint& endpoint);
 
-  /// Every state lies within the limits of position, speed and torque, and after the first command to brake the arm goes no further
-  /// than the controller's braking law from the state at that tick. Fails the test where not.
+  /// Every state lies within the limits of position, speed and torque, and after the first command to brake the
+  /// arm goes no further than the controller's braking law from the state at that tick. Fails the test where not.
   void expectLimitsKept() const;
   /// The arm does not move in the last state heard.
   void expectRest() const;

@@ -1,5 +1,5 @@
-// Three machines, one of them cut off in mid-throw: everybody notices within the silence limit, the arm comes to rest, the run ends
-// and says who is silent, the log can be read, and the next run works once the cable is back.
+// Three machines, one of them cut off in mid-throw: everybody notices within the silence limit, the arm comes to
+// rest, the run ends and says who is silent, the log can be read, and the next run works once the cable is back.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -136,10 +136,10 @@ std::unique_ptr<FastballRun> CutOff::swing() {
   }
 }
 
-/// By the stamps of the process's own HEARTBEATs. It must notice within the limit from the cut, by its own time: what it was late
-/// with the HEARTBEATs that it says meanwhile it did not run, and nobody can notice anything then. The last HEARTBEATs before the cut
-/// may have waited in LCM's thread for kTransitUs on a busy machine, and then for what came before them (the tracker's images): two
-/// of its loops. PeerWatchTest holds the limit itself, by a clock of its own.
+/// By the stamps of the process's own HEARTBEATs. It must notice within the limit from the cut, by its own time: what
+/// it was late with the HEARTBEATs that it says meanwhile it did not run, and nobody can notice anything then. The last
+/// HEARTBEATs before the cut may have waited in LCM's thread for kTransitUs on a busy machine, and then for what came
+/// before them (the tracker's images): two of its loops. PeerWatchTest holds the limit itself, by a clock of its own.
 void CutOff::expectNoticed(const std::string& process, const std::string& on) {
   SCOPED_TRACE(process + " on " + on);
   const std::string key = on + "/" + process;
