@@ -54,7 +54,7 @@ function(fastball_precompiled target headers)
 endfunction()
 
 # fastball_together(target sources...): a release build compiles these as one, so that what all of them instantiate is instantiated
-# once; names in their anonymous namespaces must differ. Worth it where headers cost more than the code: a third of the time.
+# once; names in their anonymous namespaces must differ. Worth it where headers cost more than the code: those take about half the time.
 function(fastball_together target)
   if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
