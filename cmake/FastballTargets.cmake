@@ -74,9 +74,8 @@ function(fastball_library name)
   fastball_precompiled(${name} fastball_library_headers)
 endfunction()
 
-# fastball_program(name SOURCES ... LIBRARIES ...): an executable in build/bin, part of the target `programs`.
-add_custom_target(programs)
-function(fastball_program name)
+# fastball_tool(name SOURCES ... LIBRARIES ...): an executable in build/bin that measures; installed where it was built.
+function(fastball_tool name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
@@ -84,8 +83,14 @@ function(fastball_program name)
   fastball_precompiled(${name} fastball_program_headers)
   # Commands and main programs; what must be fast is in libraries.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  add_dependencies(programs ${name})
-  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs OPTIONAL)
+endfunction()
+
+# fastball_program(name SOURCES ... LIBRARIES ...): the same for what the experiment needs, part of the target `programs`.
+add_custom_target(programs)
+function(fastball_program)
+  fastball_tool(${ARGV})
+  add_dependencies(programs ${ARGV0})
 endfunction()
 
 # fastball_export(name...): libraries for programs outside of this tree, as fastball::NAME after find_package(fastball), with all

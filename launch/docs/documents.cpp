@@ -6,11 +6,11 @@
 #include <boost/process/search_path.hpp>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
-#include "bench/row.h"
 #include "launch/docs/marked_text.h"
 #include "launch/docs/message_reference.h"
 #include "launch/processes.h"
@@ -65,24 +65,36 @@ void makeThrow(const DocumentOptions& options) {
                               "```\n$ ./fastball run --seed 1\n" + said + "```\n"));
 }
 
+std::string benchmarkLine(const nlohmann::json& row) {
+  const nlohmann::json& peer = row.at("peer_value");
+  return fmt::format("| `{}` | {:.4g} | {} | {} | {} | {} |", row.at("id").get<std::string>(),
+                     row.at("value").get<double>(), row.at("unit").get<std::string>(),
+                     row.at("peer").get<std::string>(),
+                     peer.is_null() ? "" : fmt::format("{:.4g}", peer.get<double>()),
+                     row.at("note").get<std::string>());
+}
+
 void makeBenchmarks(const DocumentOptions& options) {
   const fs::path path = options.tree / "docs/benchmarks.md";
-  std::string page = readText(path), without;
-  for (const bench::Benchmark& benchmark : bench::allBenchmarks()) {
-    fmt::print(stderr, "measuring {}\n", benchmark.id);
-    const bench::Row row = benchmark.measure();
-    const std::string line =
-        fmt::format("| `{}` | {:.4g} | {} | {} | {} | {} |", row.id, row.value, row.unit, row.peer,
-                    row.peer_value ? fmt::format("{:.4g}", *row.peer_value) : "", row.note);
-    bool found = false;
-    page = withRow(page, row.id, line, found);
-    if (!found)
-      without += " " + row.id;
-    writeText(path, page);
+  const fs::path measured = options.campaigns / "benchmarks.json";
+  fs::create_directories(options.campaigns);
+  fs::remove(measured);
+  std::string page = readText(path), missing;
+  try {
+    fastball({"bench", "--json", measured.string()});
+  } catch (const std::runtime_error& e) {
+    missing = e.what();  // a row that this machine cannot measure: the others still count
   }
-  if (!without.empty())
-    throw std::runtime_error(
-        fmt::format("{}: its tables have no row for{}", path.string(), without));
+  for (const nlohmann::json& row : nlohmann::json::parse(readText(measured)).at("rows")) {
+    const std::string id = row.at("id");
+    bool found = false;
+    page = withRow(page, id, benchmarkLine(row), found);
+    if (!found)
+      missing += fmt::format("{}: its tables have no row for {}; ", path.string(), id);
+  }
+  writeText(path, page);
+  if (!missing.empty())
+    throw std::runtime_error(missing);
 }
 
 /// A campaign, and which of its pictures docs/robustness.md shows under which name.
