@@ -204,16 +204,21 @@ void ExperimentNode::finishThrow() {
   seen.planned_speed = v_WBall.norm();
   seen.duration = scene_.duration;
   seen.note = brake_message_;
+  const auto note = [&seen](const std::string& what) {
+    seen.note += (seen.note.empty() ? "" : "; ") + what;
+  };
+  if (roster_.holds("hand_server", id(), "holding"))
+    note("the hand " + roster_.newest("hand_server")->detail);
   if (landing_ && landing_->measured == 1) {
     seen.measured = true;
     seen.landing = {landing_->landing[0], landing_->landing[1]};
     seen.landing_sigma = {std::sqrt(landing_->cov_landing[0]), std::sqrt(landing_->cov_landing[2])};
   } else {
-    const std::string why = landing_ ? landing_->message : "the tracker said no LANDING";
-    seen.note += (seen.note.empty() ? "" : "; ") + why;
+    note(landing_ ? landing_->message : "the tracker said no LANDING");
   }
   throws_.push_back(seen);
-  if (settings_.strategy == kAdaptive && seen.measured)
+  // A throw that was cut short says nothing of what the set-up adds to a throw.
+  if (settings_.strategy == kAdaptive && seen.measured && brake_message_.empty())
     learn();
   throw_wall_s_.push_back(static_cast<double>(clock_.monotonicUs() - throw_began_us_) / kMicro);
   plan_.reset();

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <iterator>
 #include <ostream>
+#include <string>
 
 #include "launch/judge.h"
 #include "tests/launch/scripted_peers.h"
@@ -15,11 +18,11 @@ using messaging::ManualClock;
 using testing::HasSubstr;
 using Phase = ExperimentNode::Phase;
 
-RunSettings threeThrows() {
+RunSettings threeThrows(const std::string& strategy) {
   RunSettings settings;
   settings.throws = 3;
   settings.seed = 7;
-  settings.strategy = "paper";
+  settings.strategy = strategy;
   settings.q_rest = {-1.0, 1.2, 0.0, 1.5};
   settings.target.p_WTarget = {3.0, 0.0, -0.5};
   settings.target.radius = 0.1;
@@ -35,7 +38,10 @@ RunSettings threeThrows() {
 
 class ExperimentNodeTest : public testing::Test {
  protected:
-  ExperimentNodeTest() { network.addNode(experiment, endpoint); }
+  explicit ExperimentNodeTest(const std::string& strategy = "paper")
+      : experiment(endpoint, clock, roster, threeThrows(strategy)) {
+    network.addNode(experiment, endpoint);
+  }
 
   /// Lets messages flow until the run is over or all stand still.
   bool flow() {
@@ -49,7 +55,7 @@ class ExperimentNodeTest : public testing::Test {
   messaging::Endpoint& endpoint = network.addEndpoint();
   Roster roster{endpoint};
   Judge judge{network.addEndpoint()};
-  ExperimentNode experiment{endpoint, clock, roster, threeThrows()};
+  ExperimentNode experiment;
 };
 
 TEST_F(ExperimentNodeTest, ConductsThreeThrowsOneAfterTheOther) {
@@ -167,6 +173,36 @@ TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
   ASSERT_EQ(experiment.throws().size(), 3U);
   EXPECT_FALSE(experiment.throws()[2].measured);
   EXPECT_THAT(experiment.throws()[2].note, HasSubstr("no LANDING"));
+}
+
+TEST_F(ExperimentNodeTest, AThrowSaysThatTheHandKeptTheBallAndWhy) {
+  peers.kept = "kept the ball: nothing has been heard of one";
+  ASSERT_TRUE(flow());
+  EXPECT_EQ(experiment.throws().at(0).note,
+            "the hand kept the ball: nothing has been heard of one");
+}
+
+class AdaptiveExperiment : public ExperimentNodeTest {
+ protected:
+  AdaptiveExperiment() : ExperimentNodeTest("adaptive") {}
+  /// Of the last throw's aim.
+  bool hasLearned() {
+    flow();
+    const auto& biases = peers.requests.back().biases;
+    return std::any_of(std::begin(biases), std::end(biases), [](double b) { return b != 0; });
+  }
+};
+
+TEST_F(AdaptiveExperiment, LearnsFromThrows) {
+  EXPECT_TRUE(hasLearned());
+  EXPECT_EQ(experiment.throws().size(), 3U);
+}
+
+TEST_F(AdaptiveExperiment, LearnsNothingFromThrowsInWhichTheArmBraked) {
+  peers.braked = "pushed";
+  EXPECT_FALSE(hasLearned());
+  ASSERT_EQ(experiment.throws().size(), 3U);
+  EXPECT_EQ(experiment.throws()[2].note, "the arm braked: pushed");
 }
 
 TEST_F(ExperimentNodeTest, AnEstopIsSaidHoweverLongItsReason) {

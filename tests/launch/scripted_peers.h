@@ -27,7 +27,8 @@ class ScriptedPeers {
       : endpoint_(network.addEndpoint()),
         plans_(endpoint_, messaging::kSwingPlan),
         landings_(endpoint_, messaging::kLanding),
-        truths_(endpoint_, messaging::kSimTruth) {
+        truths_(endpoint_, messaging::kSimTruth),
+        statuses_(endpoint_, messaging::kControllerStatus) {
     for (ScriptedNode* node : {&planner, &controller, &hand_server, &sim_bullet, &vision_tracker}) {
       network.addNode(*node, node == &planner ? endpoint_ : network.addEndpoint());
     }
@@ -42,6 +43,8 @@ class ScriptedPeers {
       sim_bullet{"sim_bullet"}, vision_tracker{"vision_tracker"};
   bool plans = true, arms = true, plays = true, measures = true;
   std::string refusal;  ///< of the planner
+  std::string braked;   ///< why the arm brakes in mid-throw
+  std::string kept;     ///< why the hand keeps the ball
   std::vector<plan_request_t> requests;
   std::vector<throw_start_t> starts;
   std::vector<scene_t> scenes;
@@ -93,6 +96,10 @@ class ScriptedPeers {
     scenes.push_back(scene);
     if (!plays)
       return;
+    if (!braked.empty())
+      brake(scene.scene_id);
+    if (!kept.empty())
+      hand_server.own_state = {"holding", kept, scene.scene_id};
     tell(sim_truth_t::RELEASED, 1, scene.scene_id);
     tell(sim_truth_t::LANDED, 2, scene.scene_id);
     tell(sim_truth_t::FINISHED, 3, scene.scene_id);
@@ -106,6 +113,15 @@ class ScriptedPeers {
     landing.cov_landing[0] = 1e-6;
     landing.cov_landing[2] = 4e-6;
     landings_.publish(landing);
+  }
+
+  void brake(int64_t scene_id) {
+    controller_status_t status{};
+    status.utime = 1;
+    status.scene_id = scene_id;
+    status.phase = arm_command_t::BRAKE;
+    status.message = braked;
+    statuses_.publish(status);
   }
 
   void tell(int8_t event, int32_t index, int64_t scene_id) {
@@ -124,6 +140,7 @@ class ScriptedPeers {
   messaging::Publisher<swing_plan_t> plans_;
   messaging::Publisher<landing_t> landings_;
   messaging::Publisher<sim_truth_t> truths_;
+  messaging::Publisher<controller_status_t> statuses_;
 };
 
 }  // namespace fastball::launch
