@@ -78,7 +78,7 @@ void ExperimentNode::hear(const controller_status_t& status) {
     heardProgress();
   status_ = status;
   if (status.phase == arm_command_t::BRAKE && brake_message_.empty()) {
-    brake_message_ = "the arm braked: " + status.message;
+    brake_message_ = "the arm " + status.message;
   }
 }
 

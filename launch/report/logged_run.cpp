@@ -27,7 +27,7 @@ class Listener {
     log.subscribe<controller_status_t>(kControllerStatus, [this](const auto& m) {
       std::string& brake = run_.throws[m.scene_id].brake;
       if (m.phase == arm_command_t::BRAKE && brake.empty())
-        brake = "the arm braked: " + m.message;
+        brake = "the arm " + m.message;
     });
     log.subscribe<sim_truth_t>(kSimTruth, [this](const sim_truth_t& m) {
       if (m.event == sim_truth_t::SAMPLE)

@@ -26,6 +26,8 @@ RunSettings threeThrows(const std::string& strategy) {
   settings.q_rest = {-1.0, 1.2, 0.0, 1.5};
   settings.target.p_WTarget = {3.0, 0.0, -0.5};
   settings.target.radius = 0.1;
+  settings.ball.mass = 0.1;
+  settings.config.adaptive = {0.1, 0.1, 0.01, 0.1, 0.03, 3.0};
   settings.config.settle = 0.6;
   settings.config.scene_period = 10.0;
   settings.config.camera_lead = 0.15;
@@ -199,7 +201,7 @@ TEST_F(AdaptiveExperiment, LearnsFromThrows) {
 }
 
 TEST_F(AdaptiveExperiment, LearnsNothingFromThrowsInWhichTheArmBraked) {
-  peers.braked = "pushed";
+  peers.braked = "braked: pushed";
   EXPECT_FALSE(hasLearned());
   ASSERT_EQ(experiment.throws().size(), 3U);
   EXPECT_EQ(experiment.throws()[2].note, "the arm braked: pushed");

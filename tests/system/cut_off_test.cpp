@@ -1,33 +1,20 @@
 // Three machines, one of them cut off in mid-throw: everybody notices within the silence limit, the arm comes to
 // rest, the run ends and says who is silent, the log can be read, and the next run works once the cable is back.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <stdexcept>
-#include <thread>
+#include <string>
 #include <vector>
 
 #include "logger/log_reader.h"
 #include "messaging/clock.h"
-#include "messaging/lcm_endpoint.h"
-#include "tests/system/three_hosts.h"
+#include "tests/system/watched_hosts.h"
 
 namespace fastball::system_test {
 namespace {
 
-using messaging::LcmEndpoint;
 using test_kit::Hosts;
 using testing::HasSubstr;
 
@@ -36,105 +23,20 @@ constexpr int64_t kBeatUs = kLimitUs / 5;
 constexpr int64_t kTransitUs = 50'000;
 const std::vector<std::string> kHosts = {"robot", "vision", "operator"};
 
-/// What is heard on one host, from a thread of its own: it hears its host's processes also while it is cut off.
-class Ear {
- public:
-  Ear(const Hosts& hosts, const std::string& host) {
-    hosts.on(host, [this] {
-      endpoint_ = std::make_unique<LcmEndpoint>(Hosts::lcmUrl());
-      endpoint_->subscribe<heartbeat_t>(messaging::kHeartbeat, [this](const heartbeat_t& m) {
-        beats_[m.host + "/" + m.name].push_back(m);
-      });
-      endpoint_->subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) { scene_ = m; });
-      endpoint_->subscribe<arm_state_t>(messaging::kArmState,
-                                        [this](const arm_state_t& m) { state_ = m; });
-      endpoint_->subscribe<controller_status_t>(
-          messaging::kControllerStatus, [this](const controller_status_t& m) { status_ = m; });
-    });
-    thread_ = std::thread([this] {
-      while (!end_) {
-        pollfd wait{endpoint_->fileDescriptor(), POLLIN, 0};
-        poll(&wait, 1, 10);
-        const std::lock_guard lock(mutex_);
-        endpoint_->drain();
-      }
-    });
-  }
-  ~Ear() {
-    end_ = true;
-    thread_.join();
-  }
-  std::vector<heartbeat_t> beats(const std::string& process) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = beats_.find(process);
-    return found == beats_.end() ? std::vector<heartbeat_t>{} : found->second;
-  }
-  scene_t scene() const {
-    const std::lock_guard lock(mutex_);
-    return scene_;
-  }
-  arm_state_t state() const {
-    const std::lock_guard lock(mutex_);
-    return state_;
-  }
-  controller_status_t status() const {
-    const std::lock_guard lock(mutex_);
-    return status_;
-  }
-
- private:
-  std::unique_ptr<LcmEndpoint> endpoint_;
-  mutable std::mutex mutex_;
-  std::map<std::string, std::vector<heartbeat_t>> beats_;  ///< by "host/process"
-  scene_t scene_{};
-  arm_state_t state_{};
-  controller_status_t status_{};
-  std::atomic<bool> end_ = false;
-  std::thread thread_;
-};
-
-class CutOff : public ThreeHosts {
+class CutOff : public WatchedHosts {
  protected:
-  void SetUp() override {
-    ThreeHosts::SetUp();
-    if (hosts_)
-      for (const std::string& host : kHosts)
-        ears_[host] = std::make_unique<Ear>(*hosts_, host);
-  }
-  void upHere(const Places& places, const std::string& flags) {
-    const Outcome outcome = up(places, flags, {hosts_->sshStandIn()});
-    ASSERT_EQ(outcome.exit_status, 0) << outcome.output;
-  }
-  /// Starts a run and waits until the arm swings.
-  std::unique_ptr<FastballRun> swing();
   /// Cuts a host off in mid-swing, and holds everybody to what is promised.
   void cutOff(const std::string& host);
   void expectNoticed(const std::string& process, const std::string& on);
-  void expectArmAtRest() const;
   void expectRecovered();
   void expectReadableLog() const;
   /// In a HEARTBEAT since the cut.
-  bool robotSaid(const std::string& words, const std::string& state = "") const;
+  bool robotSaid(const std::string& words, const std::string& state = "") const {
+    return said("robot", "sim_bullet", cut_us_, words, state);
+  }
 
-  std::map<std::string, std::unique_ptr<Ear>> ears_;
   int64_t cut_us_ = 0;  ///< [us since 1970], of the last cut
 };
-
-std::unique_ptr<FastballRun> CutOff::swing() {
-  while (true) {
-    const int64_t before = ears_.at("robot")->status().scene_id;
-    auto thrown = run("100");
-    while (thrown->running()) {
-      const controller_status_t status = ears_.at("robot")->status();
-      if (status.scene_id > before && status.phase == arm_command_t::SWING)
-        return thrown;
-      pause();
-    }
-    const Outcome outcome = thrown->wait();
-    if (!wasTooBusy(outcome))
-      throw std::runtime_error("ended before the arm swung: " + outcome.output);
-  }
-}
 
 /// By the stamps of the process's own HEARTBEATs. It must notice within the limit from the cut, by its own time: what
 /// it was late with the HEARTBEATs that it says meanwhile it did not run, and nobody can notice anything then. The last
@@ -166,26 +68,9 @@ void CutOff::expectNoticed(const std::string& process, const std::string& on) {
   FAIL() << "it has never noticed";
 }
 
-void CutOff::expectArmAtRest() const {
-  const Ear& ear = *ears_.at("robot");
-  const auto speed = [&ear] { return Eigen::Map<const Eigen::Vector4d>(ear.state().qd).norm(); };
-  const auto finished = [&ear] {
-    const heartbeat_t robot = ear.beats("robot/sim_bullet").back();
-    return robot.state == "finished" && robot.plan_id == ear.state().scene_id;
-  };
-  while (speed() > 0.05 && !finished())
-    pause();
-  // On a busy machine the kernel drops what this test does not fetch in time, and then the scene's end was not heard.
-  if (ear.scene().scene_id != ear.state().scene_id)
-    return;
-  if (ear.state().tick + 1 < std::llround(ear.scene().duration * 1e3) && speed() > 0.05)
-    return;
-  EXPECT_LT(speed(), 0.05) << "[rad/s]";
-}
-
 void CutOff::cutOff(const std::string& host) {
   SCOPED_TRACE(host + " is cut off");
-  const auto thrown = swing();
+  const auto thrown = swing("100");
   hosts_->cutLink(host);
   cut_us_ = messaging::SystemClock().wallUs();
   for (const auto& [process, on] : places_)
@@ -200,14 +85,6 @@ void CutOff::cutOff(const std::string& host) {
   }
   expectArmAtRest();
   hosts_->restoreLink(host);
-}
-
-bool CutOff::robotSaid(const std::string& words, const std::string& state) const {
-  const auto beats = ears_.at("robot")->beats("robot/sim_bullet");
-  return std::any_of(beats.begin(), beats.end(), [&](const heartbeat_t& beat) {
-    return beat.utime >= cut_us_ && beat.detail.find(words) != std::string::npos &&
-           (state.empty() || beat.state == state);
-  });
 }
 
 /// Nobody's HEARTBEAT says any more that somebody is silent; but those who stopped for it remember why until the next throw.
