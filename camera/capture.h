@@ -7,12 +7,15 @@
 
 namespace fastball::camera {
 
-/// Reads a source on a thread of its own, so that nobody has to wait for a device that hangs.
+/// Reads a source on a thread of its own, so that nobody has to wait for a device that hangs. What
+/// it gives may be asked for from any thread.
 class Capture {
  public:
   /// What happens when images come faster than they are taken.
   enum class WhenFull { kWait, kDropOldest };
 
+  /// Opens the source on that thread. What `open` refers to must live as long as the process, for
+  /// the thread may be left behind.
   Capture(const OpenSource& open, WhenFull when_full);
   /// Waits for the thread for a fifth of a second; one that hangs in its device is left behind and ends with the process.
   ~Capture();
@@ -20,7 +23,8 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 
   /// The oldest image that waits, or nothing. Does not block.
-  /// @throw what opening or reading the source threw, once the images before that have been taken
+  /// @throw what opening or reading the source threw, once the images before that have been taken;
+  ///   again with every call
   std::optional<SourceImage> take();
   /// The source had an end, and all images have been taken.
   bool ended() const;
@@ -29,7 +33,7 @@ class Capture {
   /// Images that nobody took in time.
   int64_t dropped() const;
 
-  static constexpr std::size_t kLongestQueue = 16;
+  static constexpr std::size_t kLongestQueue = 16;  ///< images that wait
 
  private:
   struct Shared;

@@ -24,9 +24,11 @@ struct DeviceOptions {
 /// @return [us since 1970]
 int64_t middleOfExposure(int64_t stamp_us, int64_t monotonic_us, int64_t wall_us, double exposure);
 
-/// A V4L2 device through OpenCV.
+/// A V4L2 device through OpenCV, asked for MJPEG. What else it does not do as asked is a warning in
+/// the log.
 class Device : public ImageSource {
  public:
+  /// @param clock must live as long
   /// @throw std::runtime_error if it cannot be opened
   Device(DeviceOptions options, const messaging::Clock& clock);
   std::optional<SourceImage> next() override;

@@ -13,7 +13,7 @@ struct SourceImage {
   cv::Mat pixels;  ///< CV_8UC1 (grey) or CV_8UC3 (blue, green, red)
   std::optional<int64_t>
       utime;          ///< [us since 1970], middle of the exposure, if the source knows it
-  int64_t frame = 0;  ///< counts from 0, images that were dropped on the way included
+  int64_t frame = 0;  ///< from 0, as Capture counts them: those that it dropped included
 };
 
 /// Where a camera's images come from. Used by one thread, the one that opened it.

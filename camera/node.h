@@ -18,7 +18,7 @@ struct CameraOptions {
   std::optional<model::Camera> calibration;  ///< without it there is no CAMERA_INFO
   cv::Size size;                             ///< [px] that the images must have; empty: any
   double rate = 0;                           ///< [Hz], 0: what the source tells
-  double exposure = 0;                       ///< [s]
+  double exposure = 0;                       ///< [s], for CAMERA_INFO
   bool gray = false;                         ///< images in grey
   int quality = 90;                          ///< of the JPEG, 1 to 100
 
@@ -32,10 +32,13 @@ struct CameraOptions {
   bool on_request = false;  ///< a video begins with each new PLAN_REQUEST
 };
 
-/// A camera as a process: images and CAMERA_INFO out (once a second, and before the first image), and PLAN_REQUEST in if it waits
-/// for one. Its name is the channel in small letters; its state is one of opening, waiting (for its time or a request),
-/// publishing, ended. step() throws what the source threw; std::runtime_error if no image comes for five seconds or one has
-/// another size than the first; std::invalid_argument if calibration or wanted size are not the images', or the rate is unknown.
+/// A camera as a process: images as JPEG and CAMERA_INFO out (once a second, and before the first
+/// image), and PLAN_REQUEST in if it waits for one. Its name is the channel in small letters; its
+/// state is one of opening, waiting (for its time or a request), publishing, ended. step() throws
+/// what the source threw; std::runtime_error if no image comes for five seconds, or one has another
+/// size than the first, other pixels than SourceImage says, or does not fit a message;
+/// std::invalid_argument if calibration or wanted size are not the images', the rate of a video or
+/// of a calibrated camera is unknown, or there is no image at all.
 std::unique_ptr<messaging::Node> makeNode(messaging::Endpoint& endpoint,
                                           const messaging::Clock& clock,
                                           const CameraOptions& options,

@@ -19,7 +19,7 @@ class ClockCheck {
 
   /// Asks, if it is time; to be called every 20 ms or so until it returns true: everybody has been asked often enough.
   bool update();
-  /// "clocks: robot +0.1 ms, vision does not tell"; empty: there are no other hosts.
+  /// "clocks: robot +0.1 ms (to 0.2), vision does not tell"; empty: there are no other hosts.
   std::string report() const;
   /// A sentence on the clock that is farther off than `limit` [s] beyond any doubt of the measurement; empty: there is none.
   std::string fault(double limit) const;

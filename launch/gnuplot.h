@@ -11,7 +11,7 @@ std::string dataBlock(const std::string& name, const std::string& data);
 std::string quoted(const std::string& text);
 
 /// Draws `commands` twice: as path_stem.png and path_stem.svg, of width x height pixels, letters equally
-/// large in both.
+/// large in both. Threads may do so at the same time.
 /// @param data what the commands draw: data blocks.
 /// @throw std::runtime_error if gnuplot cannot be run or fails.
 void drawPicture(const std::string& path_stem,

@@ -18,8 +18,9 @@ struct LiveBoard {
 };
 
 /// Collects views until each camera has enough, or SIGINT; says its progress on standard output.
-/// @throw std::invalid_argument if the board cannot be or the folder cannot be written
-/// @throw std::runtime_error if a camera says nothing for ten seconds
+/// @throw std::invalid_argument if the board cannot be, the folder cannot be written or the URL
+///   does not parse
+/// @throw std::runtime_error if a camera says nothing for ten seconds or the network cannot be used
 std::vector<vision_tracker::CameraImages> collectViews(const LiveBoard& options);
 
 }  // namespace fastball::launch

@@ -31,14 +31,14 @@ class Processes {
   int pid(const std::string& name) const;
   std::vector<std::string> names() const;
   /// A sentence on a process that has ended by itself ("controller was ended by signal 9
-  /// (Killed)"), or nothing.
+  /// (Killed)") with its lastOutput() in the lines below, or nothing.
   std::optional<std::string> ended();
   /// Exit status of a process that has ended, 128 + the signal's number if one ended it; -1 if it runs or is none of these.
   int exitStatus(const std::string& name);
-  /// The last lines that the process wrote to stdout and stderr, each with "[name] " in front.
+  /// The last five lines that the process wrote to stdout and stderr, each with "[name] " in front.
   std::string lastOutput(const std::string& name) const;
   /// Ends all processes but those named `last` by SIGINT, after `grace` [s] by SIGKILL; then, with
-  /// a grace of their own, those.
+  /// a grace of their own, those. Then none of them is known here any more.
   /// @return names of those that had to be killed.
   std::vector<std::string> stop(double grace, const std::string& last = "");
 

@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "launch/results.h"
-
 namespace fastball::launch {
 
-/// What `fastball run` shows: lines on stdout, and on a terminal one line that is written over and over while a throw goes on.
+/// What `fastball run` shows: lines on stdout, and where stderr is a terminal one line there that
+/// is written over and over while a throw goes on.
 class Progress {
  public:
   /// @param silent: says nothing at all.

@@ -5,13 +5,15 @@
 
 namespace fastball::launch {
 
-/// The experiment file that a log's run had, with all the files it names: put into a temporary folder from the
-/// record beside the log while this object lives.
+/// The experiment file that a log's run had, with all the files it names: put into a temporary
+/// folder from the record beside the log while this object lives. One at a time in a process: the
+/// folder bears the process id.
 class RecordedConfiguration {
  public:
   /// @param named an experiment file to be taken in place of the recorded one; empty: the recorded one, or the default experiment
   /// if none is recorded.
   /// @throw std::invalid_argument if the record names a file outside its folder.
+  /// @throw std::runtime_error if the temporary folder cannot be written.
   RecordedConfiguration(const std::string& log, const std::string& named);
   ~RecordedConfiguration();
   RecordedConfiguration(const RecordedConfiguration&) = delete;

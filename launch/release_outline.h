@@ -28,14 +28,15 @@ using Outline = std::vector<Eigen::Vector2d>;
 
 /// [m], closed.
 Outline circleOutline(const Eigen::Vector2d& centre, double radius);
-/// What is seen of a capsule whose axis is seen from `start` to `end`.
+/// What is seen of a capsule whose axis is seen from `start` to `end` [m], closed.
 Outline capsuleOutline(const Eigen::Vector2d& start, const Eigen::Vector2d& end, double radius);
-/// What is seen of the palm and the wrist that carries it: a cylinder from the tool plate to the palm's surface.
+/// What is seen of the palm and the wrist that carries it [m]: a cylinder from the tool plate to
+/// the palm's surface.
 Outline palmOutline(const ThrowPlane& plane,
                     const Eigen::Isometry3d& X_WH,
                     const model::HandParameters& hand);
 
-/// Data for gnuplot: one polygon.
+/// Data for gnuplot [m]: one polygon, seen from `origin`.
 std::string polygon(const Outline& outline, const Eigen::Vector2d& origin);
 
 }  // namespace fastball::launch

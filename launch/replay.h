@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 
@@ -22,7 +21,7 @@ struct ReplayOptions {
 class ReplayConsole {
  public:
   virtual ~ReplayConsole() = default;
-  /// Waits for input until the steady time `until_us` at the latest, and may return earlier.
+  /// Waits for input until `until_us` [us] of steadyUs() at the latest, and may return earlier.
   virtual void wait(int64_t until_us) = 0;
   virtual bool paused() = 0;
   virtual bool stopped() = 0;
@@ -34,7 +33,8 @@ class ReplayConsole {
 /// follows. Channels that make a robot move (ARM_COMMAND, HAND_COMMAND, THROW_START, SCENE, ESTOP) are passed over
 /// unless asked for; what counts is the name under which a message would be said.
 /// @return how many messages were said.
-/// @throw std::invalid_argument if the log cannot be read.
+/// @throw std::invalid_argument if the log cannot be read or holds no message, or an expression
+///   does not parse.
 int64_t replayLog(const std::string& log_path,
                   const ReplayOptions& options,
                   messaging::LcmEndpoint& endpoint,

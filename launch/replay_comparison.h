@@ -19,9 +19,10 @@ struct ComparedChannel {
   int64_t missing() const { return recorded - equal - different; }
 };
 
-/// Pairs recorded messages with those that a process says now, and compares every field but `seq` and `plan_ms`,
-/// which depend on the start and the speed of the process. Messages of one channel that name the same tick, frame
-/// or request belong together, whatever their order; others in the order in which they come.
+/// Pairs recorded messages with those that a process says now, and compares every field but `seq`
+/// and `plan_ms`, which depend on the start and the speed of the process. Messages of one channel
+/// that name the same tick or frame (of the same scene and camera) belong together, whatever their
+/// order; others in the order in which they come.
 class MessageComparison {
  public:
   using Bytes = std::vector<char>;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +29,8 @@ struct JudgedThrow {
   bool hit = false;  ///< the ball's centre crossed the target plane within the net's radius
 };
 
+/// What touched the ball after its release is put into the note.
+/// @param target_radius [m], inner, of the net's ring
 JudgedThrow judge(const Throw& seen, const Truth& truth, double target_radius);
 
 /// Everything a run leaves behind.
@@ -50,8 +51,8 @@ struct RunResult {
 /// null.
 nlohmann::json toJson(const RunResult& result);
 
-/// "throw 1: planned in 35 ms, released at 6.02 m/s, measured (+12.1, -3.0) mm +- (1.1, 1.3), true
-/// (+11.8, -2.7) mm: hit"
+/// "throw 1: planned in 35 ms, released at 5.04 m/s (plan 5.04), landing (+12.1, -3.0) mm +- (1.1,
+/// 1.3), true (+11.8, -2.7) mm: hit", and the note in brackets, if there is one.
 std::string throwLine(const JudgedThrow& judged);
 
 /// Writes the object to a file. @throw std::runtime_error if it cannot.

@@ -41,7 +41,8 @@ struct RunSetup {
   double clock_limit = 0;  ///< [s], between this machine's clock and others; 0: not measured
 };
 
-/// Reads the experiment file with every process's section and checks all that can be checked before anything is started.
+/// Reads the experiment file with every process's section and checks all that can be checked before
+/// anything is started. Makes the folder runs/ if a log is to be written and none is named.
 /// @throw std::invalid_argument with a sentence that names file, line and key, or the flag.
 RunSetup prepareRun(const RunOptions& options);
 

@@ -11,10 +11,12 @@ namespace fastball::launch {
 /// Joins what the experiment saw of each throw with its truth, as soon as both are there, and shows it.
 class Verdicts {
  public:
+  /// @param target_radius [m], inner, of the net's ring
   Verdicts(const ExperimentNode& experiment,
            Judge& judge,
            double target_radius,
            Progress& progress);
+  /// Judges whatever can be judged by now.
   void update();
   /// True if every throw that the experiment has seen is judged.
   bool complete() const { return throws_.size() == experiment_.throws().size(); }

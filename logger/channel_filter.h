@@ -6,7 +6,8 @@
 
 namespace fastball::logger {
 
-/// Which channels are wanted, by regular expressions that match the whole name.
+/// Which channels are wanted, by regular expressions (ECMAScript's) that match the whole name. It
+/// remembers its answers: for one thread only.
 class ChannelFilter {
  public:
   /// `excluded` empty: none. @throw std::invalid_argument if an expression does not parse; names it.

@@ -26,12 +26,14 @@ struct LogPart {
 };
 
 /// Copies the wanted part of a log, which by default is every whole record.
-/// @throw std::invalid_argument if `path` cannot be read, an expression does not parse, or `new_path` exists or cannot be made.
-/// @throw std::runtime_error if the disk does not take the copy.
+/// @throw std::invalid_argument if `path` cannot be read or holds no message, an expression does
+///   not parse, or `new_path` exists or cannot be made.
+/// @throw std::runtime_error if the disk fails or does not take the copy.
 CopyResult copyLog(const std::string& path, const std::string& new_path, const LogPart& part = {});
 
-/// Merges logs by receive time. Messages of one log stay in their order; of two at the same time that of the log named first
-/// comes first. Throws as copyLog().
+/// Merges logs by receive time. Messages of one log stay in their order; of two at the same time
+/// that of the log named first comes first. Throws as copyLog(), but a log may hold no message.
+/// @param paths at least one
 CopyResult mergeLogs(const std::vector<std::string>& paths, const std::string& new_path);
 
 }  // namespace fastball::logger

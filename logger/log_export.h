@@ -26,8 +26,9 @@ struct ExportResult {
 /// Writes the messages of one channel as CSV: a header, then a line for each message with the receive time `recv_utime` [us since
 /// 1970] and its values, numbers with the shortest digits that give them back exactly. Where an array is shorter
 /// than in another message, its columns are empty.
-/// @throw std::invalid_argument if the log cannot be read, has no decodable message on that channel, has no such field, or has so
-///   many values that no table should hold them; the message names what there is.
+/// @throw std::invalid_argument if the log cannot be read, has no decodable message on that
+///   channel, has no such field, or has more than 10 000 values in a message, too many for a table;
+///   the sentence names what there is. Whether `csv` took it all is for the caller to look.
 ExportResult exportCsv(const std::string& path,
                        const ExportOptions& options,
                        const messaging::TypeLibrary& types,

@@ -6,8 +6,8 @@
 
 namespace fastball::logger {
 
-/// An LCM log file being written. Its own writing, because LCM's cannot say which records reached the disk and
-/// leaves half a record where there was no room for the whole.
+/// An LCM log file being written, by one thread. Its own writing, because LCM's cannot say which
+/// records reached the disk and leaves half a record where there was no room for the whole.
 class LogFile {
  public:
   /// Creates the file or empties it. @throw std::invalid_argument if it cannot; names path and reason.
@@ -31,14 +31,15 @@ class LogFile {
   std::string failure_;
 };
 
-/// Appends one record to `records`.
+/// Appends one record to `records`, of a message that canBeRecorded(). `utime`: [us since 1970].
 void appendRecord(std::string& records,
                   int64_t number,
                   int64_t utime,
                   std::string_view channel,
                   std::string_view data);
 
-/// Length of the record at the start of `records`, which must hold whole records; 0 at their end.
+/// Length [bytes] of the record at the start of `records`, which must hold whole records; 0 at
+/// their end.
 std::size_t firstRecordBytes(std::string_view records);
 
 }  // namespace fastball::logger

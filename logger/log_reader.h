@@ -47,6 +47,7 @@ class LogReader {
   /// The first kMaxDamages damages that were stepped over.
   const std::vector<Damage>& damages() const { return damages_; }
   static constexpr std::size_t kMaxDamages = 1000;
+  /// Places stepped over, however many.
   int damageCount() const { return damage_count_; }
   int64_t damagedBytes() const { return damaged_bytes_; }
 
@@ -54,6 +55,7 @@ class LogReader {
   int64_t fileBytes() const { return file_bytes_; }
   /// Where the next record is expected [bytes].
   int64_t offset() const { return offset_; }
+  /// Back to the first record; forgets the damages found.
   void rewind();
   /// Goes on with the record at `offset` [bytes], where offset() was before that record was read. Damages found stay counted.
   void seek(int64_t offset) { offset_ = offset; }
@@ -81,8 +83,9 @@ class LogReader {
 };
 
 /// Calls `handler` for every message of a log, in the order of the file; damage is stepped over.
-/// @return how often that was so.
+/// @return how many damages there were.
 /// @throw std::invalid_argument if the file cannot be read or holds no message at all.
+/// @throw std::runtime_error if the disk fails.
 int readLog(const std::string& path, const std::function<void(const LogEntry&)>& handler);
 
 }  // namespace fastball::logger

@@ -16,7 +16,8 @@ class LogWriter {
   ~LogWriter();
 
   /// Appends one message. `utime`: when it was received [us since 1970].
-  /// @throw std::invalid_argument if LCM could not carry it: a channel of more than 63 bytes, data of more than 64 MiB.
+  /// @throw std::invalid_argument unless it canBeRecorded(): a channel of 1 to 63 bytes, data of at
+  ///   most 64 MiB.
   /// @throw std::runtime_error if the disk does not take it.
   void write(const std::string& channel, const void* data, std::size_t size, int64_t utime);
   /// Hands everything written so far to the operating system.

@@ -5,8 +5,9 @@
 #include <string>
 #include <string_view>
 
-/// One record of LCM's log file format: sync word, number of the record, time, length of channel and data, channel, data; all
-/// numbers big endian.
+/// One record of LCM's log file format (LCM's documentation, "LCM Log File format"): sync word [4
+/// bytes], number of the record [8], time [8], length of channel [4] and data [4], channel, data;
+/// all numbers big endian.
 namespace fastball::logger {
 
 inline constexpr std::size_t kHeaderBytes = 28;

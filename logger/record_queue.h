@@ -10,16 +10,21 @@
 
 namespace fastball::logger {
 
-/// Records on their way from the network to the disk, in bounded memory. Whoever adds never waits for whoever takes: where there
-/// is no room the record is dropped, and it is kept in mind what was dropped and when.
+/// Records on their way from the network to the disk, in bounded memory, for any threads. Whoever
+/// adds never waits for whoever takes: where there is no room the record is dropped, and it is kept
+/// in mind what was dropped and when.
 class RecordQueue {
  public:
+  /// @param max_bytes of records that wait
   explicit RecordQueue(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// Adds one message as a record. @return false if it was dropped.
+  /// Adds one message as a record. `utime`: when it was received [us since 1970].
+  /// @return false if it was dropped.
   bool add(std::string_view channel, std::string_view data, int64_t utime);
-  /// Moves the oldest records into `records`, about a megabyte of them, as soon as there are so many, at the latest after
-  /// kLongestWait. What was in `records` before counts as written. @return false if the queue is empty and closed.
+  /// Moves the oldest records into `records`, about a megabyte of them, as soon as there are so
+  /// many, at the latest twice kLongestWait after the first of them has come; waits until one has.
+  /// What was in `records` before counts as written. @return false if the queue is empty and
+  /// closed.
   bool take(std::string& records);
   /// Ends the waiting of take(), and all that comes after this is dropped.
   void close();
@@ -30,15 +35,15 @@ class RecordQueue {
   struct Dropped {
     int64_t messages = 0;
     int64_t first_utime = 0;  ///< [us since 1970]
-    int64_t last_utime = 0;
+    int64_t last_utime = 0;   ///< [us since 1970]
   };
   std::map<std::string, Dropped> dropped() const;
   int64_t droppedMessages() const;
-  /// Records that wait, those taken last included.
+  /// [bytes] of the records that wait, those taken last included.
   std::size_t bytes() const;
   bool isClosed() const;
 
-  /// [s] A killed process loses no more.
+  /// [s] A killed process loses no more than it received in twice this.
   static constexpr double kLongestWait = 0.05;
 
  private:

@@ -13,15 +13,16 @@ namespace fastball::logger {
 
 struct RecorderOptions {
   std::string path;  ///< of the log; with splitting, run.lcmlog becomes run.000.lcmlog, ...
-  std::size_t buffer_bytes = std::size_t{256} << 20;
-  int64_t split_bytes = 0;  ///< a file gets no longer than this, 0: any length
+  std::size_t buffer_bytes = std::size_t{256} << 20;  ///< of messages that wait for the disk
+  int64_t split_bytes = 0;  ///< a file of several messages gets no longer than this, 0: any length
   int64_t split_us = 0;     ///< a file spans no more than this receive time, 0: any time
-  int keep = 0;             ///< so many files are kept and older ones removed, 0: all
+  int keep = 0;             ///< so many files are kept and older ones of this run removed, 0: all
 };
 
-/// Writes messages to a log file or a row of them, on a thread of its own: whoever receives never waits for the
-/// disk. While the disk is slow or full, messages wait in a bounded buffer; what does not fit is dropped and
-/// counted, and writing goes on when there is room again.
+/// Writes messages to a log file or a row of them, on a thread of its own: whoever receives never
+/// waits for the disk. While the disk is slow or full, messages wait in a bounded buffer; what does
+/// not fit is dropped and counted, and writing goes on when there is room again. add() and status()
+/// may be called from any thread.
 class Recorder {
  public:
   /// @throw std::invalid_argument if the file cannot be created.
@@ -29,7 +30,8 @@ class Recorder {
   /// Stops, if stop() has not been called.
   ~Recorder();
 
-  /// Takes a message to be written. @return false if it was dropped.
+  /// Takes a message to be written, received at `utime` [us since 1970].
+  /// @return false if it was dropped.
   bool add(std::string_view channel, std::string_view data, int64_t utime) {
     return queue_.add(channel, data, utime);
   }

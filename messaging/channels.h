@@ -13,11 +13,12 @@ inline constexpr std::size_t kControlBytes = 1400;
 /// Images and plans must fit one UDP datagram.
 inline constexpr std::size_t kDatagramBytes = 60000;
 
+/// A channel and what is said on it. Cameras beside these have channels of their own
+/// (image_channel.h).
 template <class T>
 struct Channel {
-  using Message = T;
   const char* name;
-  std::size_t max_bytes;
+  std::size_t max_bytes;  ///< of an encoded message, a command's trailer included
   /// True where one sender numbers all messages, so that a gap in seq is a lost message.
   bool one_sender = true;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 
@@ -12,6 +11,8 @@ namespace fastball::messaging {
 /// Answers everybody who asks on CLOCK what time it is here: part of every process (runOverLcm).
 class ClockAnswer {
  public:
+  /// @param name of this process. It must live as long as `endpoint` is drained; so must a
+  ///   ClockSurvey.
   ClockAnswer(Endpoint& endpoint, const Clock& clock, const std::string& name);
   ClockAnswer(const ClockAnswer&) = delete;
   ClockAnswer& operator=(const ClockAnswer&) = delete;

@@ -24,6 +24,7 @@ struct CommandSender {
 /// Puts trailers behind the commands of one sender. Allocates nothing after its construction.
 class CommandSigner {
  public:
+  /// @param name of the sender, cut at kTrailerNameBytes
   CommandSigner(std::shared_ptr<const CommandKey> key, std::string_view name);
   /// Puts a trailer behind the `size` bytes of a message, for which `message` has room (kTrailerBytes). `utime`: wall time
   /// [us since 1970].

@@ -20,6 +20,7 @@ class CommandKey {
   /// @throw std::invalid_argument if there is something at `path` already, std::runtime_error if it cannot be written.
   static CommandKey make(const std::string& path);
 
+  /// @throw std::runtime_error, as the two above, if libsodium cannot be started.
   explicit CommandKey(const std::array<uint8_t, kBytes>& bytes);
   ~CommandKey();
   CommandKey(const CommandKey&) = default;
@@ -27,7 +28,8 @@ class CommandKey {
 
   /// Eight hexadecimal digits that tell this key from another one, and nothing about it.
   const std::string& id() const { return id_; }
-  /// Keyed BLAKE2b of the channel's name, a zero, and the bytes. Allocates nothing.
+  /// Keyed BLAKE2b (RFC 7693) of the channel's name, a zero, and the bytes: kTagBytes
+  /// (command_trailer.h) at `tag`. Allocates nothing.
   void tag(std::string_view channel, const void* data, std::size_t size, uint8_t* tag) const;
   /// True if `tag` is that of the bytes; takes the same time wherever they differ.
   bool isTag(std::string_view channel,

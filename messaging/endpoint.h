@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -38,8 +37,8 @@ class Endpoint {
   }
 
   /// Calls `handler` for every message of the channel that decodes to its full length and breaks no
-  /// rule, in the order of arrival. The queue is unlimited. A handler that throws std::exception
-  /// counts its message as invalid.
+  /// rule, in the order of arrival. The queue is unlimited. What a handler throws is said in the
+  /// log, and its message counts as invalid.
   template <class T>
   void subscribe(const Channel<T>& channel, std::function<void(const T&)> handler) {
     subscribeErased(

@@ -8,7 +8,7 @@
 
 namespace fastball::messaging {
 
-/// This machine, as HEARTBEAT and CLOCK name it.
+/// This machine, as HEARTBEAT and CLOCK name it; "unknown" where it has no name.
 std::string hostName();
 
 /// Says HEARTBEAT for a node: once a period and whenever its state(), detail or plan_id change.
@@ -26,7 +26,7 @@ class Heartbeat {
   void setNote(const std::string& note) { note_ = note; }
   /// Another such sentence, behind that.
   void remark(const std::string& sentence) { remark_ = sentence; }
-  /// Call after every step(). `loop_us`: how long drain and step took, for the loop figures.
+  /// Call after every step(). `loop_us`: how long drain and step took [us], for the loop figures.
   void update(double loop_us);
   /// The last words of a process, state "ended", or "failed" if the node is or `failure`, a sentence, is not empty.
   void sayLast(const std::string& failure = "");

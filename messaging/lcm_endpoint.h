@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "messaging/command_key.h"
 #include "messaging/endpoint.h"
@@ -26,11 +25,12 @@ std::string withReceiveBuffer(const std::string& url);
 /// and without a trailer, whatever its tag.
 class LcmEndpoint : public Endpoint {
  public:
+  /// Takes less than 1 s.
+  /// @param key null for none
+  /// @param name who says the commands, such as "controller"
   /// @throw std::invalid_argument if the URL does not parse.
-  /// @throw std::runtime_error with one sentence that names the URL and how to mend it (no
-  /// multicast route: the
-  ///   `ip route add` to give) if the network cannot carry it. Takes less than 1 s.
-  /// `key`: null for none. `name`: who says the commands, such as "controller".
+  /// @throw std::runtime_error if the network cannot carry it, with one sentence that names the URL
+  ///   and how to mend it (no multicast route: the `ip route add` to give).
   explicit LcmEndpoint(const std::string& url,
                        std::shared_ptr<const CommandKey> key = nullptr,
                        const std::string& name = "");
@@ -48,6 +48,7 @@ class LcmEndpoint : public Endpoint {
   /// File descriptor that becomes readable when messages wait.
   int fileDescriptor() const;
   /// Sends bytes as they are, unchecked: for replay and for tests with hostile bytes.
+  /// @return false if the network refused them; counted in unsent()
   bool publishBytes(const std::string& channel, const void* data, std::size_t size);
   /// The same, but with this endpoint's key, if it has one, a command gets a trailer of its own, in place of one that it has.
   bool publishRecorded(const std::string& channel, const void* data, std::size_t size);
@@ -56,10 +57,12 @@ class LcmEndpoint : public Endpoint {
   const std::string& refusals() const;
   /// That of the key (CommandKey::id()), or empty.
   std::string keyId() const;
-  /// Hears every channel, undecoded, with the receive time [us since 1970]: for the logger and spy.
-  /// A handler that throws makes drain() throw.
+  /// `utime`: receive time [us since 1970].
   using RawHandler = std::function<
       void(const std::string& channel, const void* data, std::size_t size, int64_t utime)>;
+  /// Hears every channel whose whole name the expression matches, undecoded: for the logger and
+  /// spy. A handler that throws makes drain() throw, and hears no more until then.
+  /// @throw std::invalid_argument if the expression does not parse.
   void subscribeRaw(const std::string& channel_regex, RawHandler handler);
 
  protected:

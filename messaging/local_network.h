@@ -10,16 +10,16 @@
 
 namespace fastball::messaging {
 
-/// All nodes of an experiment in one process, wired through memory: no network, no threads, no wall
-/// time. Messages arrive in the order in which they were published. A publisher does not hear
-/// itself unless it subscribes.
+/// All nodes of an experiment in one process, wired through memory: no network, no threads, no time
+/// but that of `clock`. Messages arrive in the order in which they were published. A publisher does
+/// not hear itself unless it subscribes.
 class LocalNetwork {
  public:
   explicit LocalNetwork(const Clock& clock);
   ~LocalNetwork();
   /// A new endpoint; it lives as long as the network.
   Endpoint& addEndpoint();
-  /// Runs `node` on `endpoint`. Both must outlive run().
+  /// Runs `node` on `endpoint`, which must be of this network. The node must outlive run().
   void addNode(Node& node, Endpoint& endpoint);
   /// Round after round: drain every endpoint, step every node, in the order of addNode (endpoints
   /// without a node come last); until `done()`, or until nothing moves any more (no message, no

@@ -25,6 +25,7 @@ class Node {
   /// Name in the HEARTBEAT, e.g. "controller".
   virtual std::string name() const = 0;
   /// Called after every drain, and at the latest at the time that wakeUs() names. Must not block.
+  /// What it throws ends the process, which says it in its last HEARTBEAT and calls shutDown().
   virtual void step() {}
   /// Monotonic time [us] at which step() must be called even if no message comes; INT64_MAX: never.
   virtual int64_t wakeUs() const { return INT64_MAX; }

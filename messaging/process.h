@@ -25,7 +25,7 @@ struct ProcessOptions {
   std::string lcm_url = kDefaultLcmUrl;
   std::string config;  ///< experiment file
   std::string key;  ///< file of the key that commands carry (messaging/command_key.h), empty: none
-  bool realtime = false;
+  bool realtime = false;    ///< paced by the wall clock, else in lockstep
   std::string uncertainty;  ///< file of errors to inject; only the simulator reads it
   bool images = true;       ///< false: no cameras and no tracker; the simulator says LANDING itself
   bool one_thread =
@@ -40,6 +40,8 @@ struct ProcessOptions {
 /// HEARTBEAT. With a silence limit [s] it says HEARTBEAT that much faster, and tells the node, standard error and the
 /// others who has fallen silent and who is back. Whoever asks on CLOCK what time it is gets an answer.
 /// @return kExitDone, or kExitFailed if the node finished in state "failed".
+/// @throw what the node or the network threw, after a last HEARTBEAT that says so and
+///   node.shutDown().
 int runOverLcm(Node& node,
                LcmEndpoint& endpoint,
                const Clock& clock,
@@ -55,14 +57,16 @@ inline constexpr const char* kKeyHelp =
     "File of the key that commands must carry (made by 'fastball key'), the same for all "
     "processes; default: none";
 
-/// The main() of every process: parses flags (CLI11; `--lcm-url --config --key --realtime --verbose
-/// --duration --silence-limit --version`), connects, prints one line (name, version, URL), builds the node, runs
-/// it, and turns exceptions into one sentence on stderr and an exit status (2 for
-/// std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1).
+/// Builds a process's node on its endpoint. Endpoint and clock outlive the node.
 using MakeNode =
     std::function<std::unique_ptr<Node>(LcmEndpoint&, const Clock&, const ProcessOptions&)>;
 /// Adds a process's own flags, read into variables that its MakeNode captures.
 using AddFlags = std::function<void(CLI::App&)>;
+/// The main() of every process: parses flags (CLI11; `--lcm-url --config --key --realtime --verbose
+/// --duration --silence-limit --version`), connects, prints one line (name, version, URL), builds
+/// the node, runs it, and turns exceptions into one sentence on stderr and an exit status (2 for
+/// std::invalid_argument, of which config::ConfigError is one, and for wrong flags; else 1). Its
+/// log goes to stderr.
 int processMain(int argc,
                 char** argv,
                 const std::string& name,

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
-#include <vector>
 
 namespace fastball::vision_tracker {
 
@@ -19,10 +17,12 @@ class Background {
   void learn(const cv::Mat& image, const cv::Rect& leave, const cv::Rect& only = {});
   /// How many images have been learned from.
   int images() const { return images_; }
-  /// CV_16S, the still scene in 1/128 grey level.
+  /// CV_16S, the still scene in 1/128 grey level; empty before the first image.
   const cv::Mat& mean() const { return mean_; }
-  /// Standard deviation [grey levels] of the still scene's noise in `image`, robust against what moves.
+  /// Standard deviation [grey levels] of the still scene's noise in `image` (CV_8U), robust against
+  /// what moves, at least 0.7. Only after the first image.
   double noise(const cv::Mat& image) const;
+  /// Forgets everything: the next image is the first.
   void reset();
 
  private:

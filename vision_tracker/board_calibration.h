@@ -23,8 +23,9 @@ struct BoardView {
   double rms = 0;  ///< [px], of its residuals; 0 if it was not used
   bool used = false;
   Eigen::Matrix3d R_CB =
-      Eigen::Matrix3d::Identity();                 ///< board (x right, y down, z into it) to camera
-  Eigen::Vector3d p_CB = Eigen::Vector3d::Zero();  ///< [m], the board's origin, its first corner
+      Eigen::Matrix3d::Identity();  ///< board (x right, y down, z into it) to camera
+  /// [m], the board's origin, the outer corner of its first square.
+  Eigen::Vector3d p_CB = Eigen::Vector3d::Zero();
 };
 
 /// A camera calibrated.
@@ -37,10 +38,12 @@ struct BoardCalibration {
   cv::Mat picture;  ///< CV_8UC3, residuals of all corners, 100 times as long
 };
 
-/// Intrinsics and distortion from images of a board.
-/// @throw std::invalid_argument if the board cannot be, the images differ in size, fewer than eight show at least eight corners, all
-///   show the board from nearly the same direction (then focal length and distance cannot be told apart), or the corners
-///   leave most of the image empty
+/// Intrinsics and distortion from images of a board (Z. Zhang, "A Flexible New Technique for Camera
+/// Calibration", 2000, as OpenCV's calibrateCamera has it).
+/// @throw std::invalid_argument if the board cannot be, the images differ in size, fewer than eight
+///   show at least eight corners, all show the board from the same direction to 15 degrees (then
+///   focal length and distance cannot be told apart), or the corners lie in less than 30 % of the
+///   image
 BoardCalibration calibrateFromBoard(const std::vector<BoardImage>& images, const BoardShape& shape);
 
 }  // namespace fastball::vision_tracker

@@ -12,6 +12,7 @@ namespace fastball::vision_tracker {
 /// that it does not matter when exactly each camera looked, and lies otherwise than in the views before.
 class BoardCollector {
  public:
+  /// @param cameras names, at least one
   /// @throw std::invalid_argument if the board cannot be
   BoardCollector(const BoardShape& shape, const std::vector<std::string>& cameras);
 

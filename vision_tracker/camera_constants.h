@@ -23,8 +23,9 @@ struct CalibrationSigma {
 /// Variances of one camera's constants. @param bias_sigma [px]
 CameraConstants constantVariances(double bias_sigma, const CalibrationSigma& calibration);
 
-/// d centre / d constants, of a point or outline at p_W whose centre lies at pixel `centre`.
-/// @param projection d centre / d p_W
+/// d centre [px] / d constants, of a point or outline at p_W [m] whose centre lies at pixel
+/// `centre`.
+/// @param projection d centre / d p_W [px/m]
 Eigen::Matrix<double, 2, kCameraConstants> byConstants(
     const model::Camera& camera,
     const Eigen::Vector3d& p_W,
@@ -41,7 +42,9 @@ struct ConstantsEvidence {
   Eigen::VectorXd gradient;
 };
 
-/// Gathers it. @param sums sum J^T W G of each camera @param cov inverse of the fit's information
+/// Gathers it, with W the weights, G = d prediction / d constants, J = d prediction / d x.
+/// @param squares sum G^T W G of each camera @param gradients sum G^T W residual of each camera
+/// @param sums sum J^T W G of each camera @param cov inverse of the fit's information
 ConstantsEvidence evidenceOf(
     const std::vector<Eigen::Matrix<double, kCameraConstants, kCameraConstants>>& squares,
     const std::vector<CameraConstants>& gradients,

@@ -61,12 +61,4 @@ std::string cameraFault(const camera_info_t& m) {
   return {};
 }
 
-bool sameCamera(const CameraSetup& a, const CameraSetup& b) {
-  return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
-         a.camera.height == b.camera.height && a.camera.fx == b.camera.fx &&
-         a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy &&
-         a.camera.distortion == b.camera.distortion && a.camera.R_CW == b.camera.R_CW &&
-         a.camera.p_CW == b.camera.p_CW;
-}
-
 }  // namespace fastball::vision_tracker

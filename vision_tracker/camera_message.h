@@ -7,14 +7,11 @@
 
 namespace fastball::vision_tracker {
 
-/// The camera that a CAMERA_INFO speaks of.
+/// The camera that a CAMERA_INFO speaks of, unchecked.
 CameraSetup cameraSetup(const camera_info_t& message);
 
-/// Why no camera can be like that (no rotation, no focal length, skew, ...), or an empty text. The numbers of a message without a
-/// fault are small enough to compute with.
+/// Why no camera can be like that (no rotation, no focal length, skew, ...), or an empty text. The
+/// numbers of a message without a fault are small enough to compute with.
 std::string cameraFault(const camera_info_t& message);
-
-/// Whether two messages speak of the same camera.
-bool sameCamera(const CameraSetup& a, const CameraSetup& b);
 
 }  // namespace fastball::vision_tracker

@@ -15,6 +15,7 @@ struct TrackerConfig {
   double silence = 0;  ///< [s] of wall time without an image after which the images have ended
 };
 
+/// @param path of the experiment file
 /// @throw config::ConfigError
 TrackerConfig readTracker(const std::string& path);
 

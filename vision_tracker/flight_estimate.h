@@ -58,7 +58,8 @@ struct FlightEstimate {
   FlightCovariance cov = FlightCovariance::Zero();
   /// The part of `cov` that noise and the priors make: without the errors that stay the same through a flight.
   FlightCovariance noise_cov = FlightCovariance::Zero();
-  /// Of each camera: d (p, v, k, S) / d its constants. cov = noise_cov + sum gain S gain^T.
+  /// Of each camera: d (p, v, k, S) / d its constants. cov = noise_cov + sum gain C gain^T, with C
+  /// the constants' variances (constantVariances()).
   std::vector<FlightGain> gains;
   /// [s], of each camera: how far its clock is ahead of the first one's, and the standard deviation of that.
   std::vector<double> clock, clock_sigma;
@@ -71,7 +72,7 @@ struct FlightEstimate {
   double quiet_scale = 1;
   int used = 0;  ///< observations that were not cut away
 
-  /// The ball at a time [us] of the first camera's clock.
+  /// The ball at a time [us] of the first camera's clock. @param gravity [m/s^2]
   model::BallState at(int64_t time, double gravity) const;
   /// From one state of this flight to another, `duration` [s] later.
   model::BallState onward(const model::BallState& state, double duration, double gravity) const;

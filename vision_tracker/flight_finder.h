@@ -39,16 +39,18 @@ struct SpatialPoint {
   double doubt = 0;
 };
 
-/// Looks for something that flies: among the points of the last twelve times, some that lie on one free fall,
-/// which where two cameras see them must show in their heights. A point is a pair of
-/// things in two cameras that lie on one point of space within 2 px and have the size of the ball there. Where two cameras
-/// have no image of one instant, the things in the one that came later are taken, on the line between its image before and its
-/// image after, at the time of the other; where the clocks are uncertain, the 2 px grow by what the thing moves meanwhile. A
-/// single camera's points come from centre and radius.
+/// Looks for something that flies: among the points of the last twelve times, six or more that lie
+/// on one free fall at 1 to 20 m/s, which where two cameras see them must show in their heights. A
+/// point is a pair of things in two cameras that lie on one point of space within 2 px and have the
+/// size of the ball there, to 15 %. Where two cameras have no image of one instant, the things in
+/// the one that came later are taken, on the line between its image before and its image after, at
+/// the time of the other; where the clocks are uncertain, the 2 px grow by what the thing moves
+/// meanwhile. A single camera's points come from centre and radius.
 class FlightFinder {
  public:
-  /// @param clock_sigma [s], of a camera's clock against the first one's
-  FlightFinder(double ball_radius, double gravity, double clock_sigma = 0);
+  /// @param ball_radius [m] @param gravity [m/s^2]
+  /// @param clock_sigma [s], of a camera's clock against the first one's; 0: one trigger for all
+  FlightFinder(double ball_radius, double gravity, double clock_sigma);
   void reset();
 
   /// A flight found.
@@ -57,7 +59,8 @@ class FlightFinder {
     int64_t utime = 0;                 ///< [us], of the earliest point
     std::vector<SpatialPoint> points;  ///< in order of time
   };
-  /// Adds the newest sightings and looks whether a flight ends in them.
+  /// Adds the newest sightings and looks whether a flight ends in them. The cameras are the same in
+  /// every call, until reset().
   std::optional<Found> add(const Sightings& sightings, const std::vector<model::Camera>& cameras);
 
  private:

@@ -8,14 +8,19 @@
 
 namespace fastball::vision_tracker {
 
-/// Robust maximum likelihood: Gauss-Newton on the pixels of all cameras over start and drag; Huber's weights at first, then
-/// observations too far off are cut (the limit grows with the median residual, so that a bad start does not cut everything).
-/// Errors that stay the same through a flight (biases, calibration) are not estimated, for the images of one flight hardly
-/// show them, but carried into the covariance: cov = F^-1 + K S K^T with K = F^-1 sum J^T W G, where G is the derivative of
-/// the centres by those errors and S their covariance ("consider parameters", Schmidt 1966).
+/// Robust maximum likelihood: Gauss-Newton on the pixels of all cameras over start and drag, and
+/// over lift, clocks and the error of a single camera's radii where the prior gives them room;
+/// Huber's weights at first, then observations too far off are cut (the limit grows with the median
+/// residual, so that a bad start does not cut everything). Errors that stay the same through a
+/// flight (biases, calibration) are not estimated, for the images of one flight hardly show them,
+/// but carried into the covariance: cov = F^-1 + K C K^T with K = F^-1 sum J^T W G, where G is the
+/// derivative of the centres by those errors and C their covariance ("consider parameters", S. F.
+/// Schmidt, "Application of state-space methods to navigation problems", 1966).
 /// @param observations in order of time; @param first use those from this index on
-/// @param guess start, at guess_utime; drag begins at the prior
-/// @return nothing if it does not converge, or less than eight observations are left.
+/// @param cameras at most FlightProblem::kMostCameras
+/// @param guess start, at guess_utime [us]; drag begins at the prior
+/// @return nothing if it does not converge, the flight leaves the space before a camera, or fewer
+///   than eight observations are left
 std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observations,
                                         std::size_t first,
                                         const std::vector<model::Camera>& cameras,

@@ -13,6 +13,7 @@ constexpr int kFlightParameters = 10;
 using FlightSensitivity = Eigen::Matrix<double, 6, kFlightParameters>;
 
 /// The ball `duration` [s] later: a = g - k |v| v + S x v. Without lift it is model::fly().
+/// @param drag_per_metre k [1/m] @param lift S [1/s] @param gravity [m/s^2]
 model::BallState flyLifted(const model::BallState& start,
                            double duration,
                            double drag_per_metre,

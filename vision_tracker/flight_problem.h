@@ -78,7 +78,7 @@ class FlightProblem {
   /// Inverse variances of what is known before; 1 for what is not to be estimated, which no observation moves.
   Unknowns prior_weight_ = Unknowns::Zero();
   std::vector<bool> estimated_;
-  double spread_ = 1;
+  double spread_ = 1;  ///< of the distances, by their median: the unit of weights and cut
 };
 
 }  // namespace fastball::vision_tracker

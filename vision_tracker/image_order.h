@@ -12,10 +12,11 @@ namespace fastball::vision_tracker {
 /// An image as it came.
 struct ReceivedImage {
   int camera = 0;
-  int64_t utime = 0;  ///< [us], middle of the exposure
-  int64_t frame = 0;  ///< number that the camera gave it
-  int width = 0, height = 0, row_stride = 0;
-  bool jpeg = true;  ///< else plain grey values
+  int64_t utime = 0;          ///< [us], middle of the exposure
+  int64_t frame = 0;          ///< number that the camera gave it
+  int width = 0, height = 0;  ///< [px]
+  int row_stride = 0;         ///< [bytes]
+  bool jpeg = true;           ///< else plain grey values
   std::vector<uint8_t> data;
 };
 
@@ -27,9 +28,15 @@ std::string decode(const ReceivedImage& image, const cv::Size& size, cv::Mat& de
 /// were woven together on the way. An image waits until every other camera has come as far.
 class ImageOrder {
  public:
+  /// @param cameras how many
   explicit ImageOrder(int cameras);
   void reset();
-  enum class Verdict { kAccepted, kRepeated, kBackwards };
+  enum class Verdict {
+    kAccepted,
+    kRepeated,   ///< has the time of its camera's newest image
+    kBackwards,  ///< is older than that, or than the last image that was handed over
+  };
+  /// Takes an image in, if the verdict is kAccepted.
   Verdict push(ReceivedImage image);
   /// The next image, if it is known to be the next. A camera that is more than `kLongestQueue` images behind is not waited for.
   std::optional<ReceivedImage> next();
@@ -46,7 +53,7 @@ class ImageOrder {
   std::size_t earliest() const;
 
   std::vector<Stream> streams_;
-  int64_t handed_over_ = INT64_MIN;  ///< [us], of the last image that next() gave
+  int64_t handed_over_ = INT64_MIN;  ///< [us], of the last image that was handed over
 };
 
 }  // namespace fastball::vision_tracker

@@ -29,7 +29,7 @@ class PixelTracker {
  public:
   PixelTracker(const cv::Size& size, const PixelTrackerOptions& options);
 
-  /// The next image, CV_8U of the size given, at a time after the last one's.
+  /// The next image, CV_8U of the size given, at a time [s] after the last one's.
   void add(const cv::Mat& image, double time);
 
   /// The ball's paths in order of time, at most one sighting an image: where several things moved at a time, the

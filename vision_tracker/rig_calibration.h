@@ -11,7 +11,8 @@ namespace fastball::vision_tracker {
 /// Where the board lies in one view: this makes the world's frame.
 struct WorldBoard {
   std::string view;  ///< name of its images; empty: the first that the first camera can use
-  /// Pose of the board (x right, y down, z into it, origin at its first corner) in the world.
+  /// Pose of the board (x right, y down, z into it, origin at the outer corner of its first square)
+  /// in the world.
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]
 };
@@ -31,8 +32,10 @@ struct RigCalibration {
 
 /// Each camera by itself, and then their poses, from the views that two of them share: images of one name were taken at the same
 /// time, while all cameras stood still. Poses go from camera to camera along the pairs with the most views in common.
-/// @throw std::invalid_argument as calibrateFromBoard(), naming the camera; if a camera shares fewer than three views with those
-///   that hang together already; or if the world's view cannot be used
+/// @param images of at least one camera
+/// @throw std::invalid_argument as calibrateFromBoard(), naming the camera; if a camera shares
+///   fewer than three views with those that hang together already; or if the world's view cannot be
+///   used
 RigCalibration calibrateRig(const std::vector<CameraImages>& images,
                             const BoardShape& shape,
                             const WorldBoard& world);

@@ -14,7 +14,8 @@ namespace fastball::vision_tracker {
 /// what lies beside it.
 class RingFinder {
  public:
-  /// @param still CV_16S in 1/128 grey level, as Background::mean() @param blur [px], standard deviation of the image
+  /// @param still CV_16S in 1/128 grey level, as Background::mean() @param tube [m], diameter
+  /// @param blur [px], standard deviation of the image
   /// @param reach [px] around the image of `nominal` that is looked at
   RingFinder(const model::Camera& camera,
              const cv::Mat& still,
@@ -23,12 +24,13 @@ class RingFinder {
              double blur,
              double reach);
 
-  /// Whether the ring and what is within reach of it lie inside the image.
+  /// Whether the ring lies inside the image, with a few pixels around it. Only then look for it.
   bool inView() const { return !area_.empty(); }
   /// How much like a line the image is along the ring's, for every shift of up to `reach` [px] each way: the
   /// middle is for none.
   cv::Mat1f search(const Ring& ring, int reach) const;
-  /// Pieces of the ring seen within some pixels of its image moved by `shift`. @param looked how many were looked for
+  /// Pieces of the ring seen within 2 px of its image moved by `shift` [px].
+  /// @param looked how many were looked for
   std::vector<RingPoint> points(const Ring& ring,
                                 const Eigen::Vector2d& shift,
                                 int camera_index,

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,7 +31,7 @@ Eigen::Matrix<double, 6, 1> between(const Ring& from, const Ring& to);
 
 /// How well a ring is known before it is seen: standard deviations.
 struct RingPrior {
-  double tube = 0;      ///< [m], diameter of the tube
+  double tube = 0;      ///< [m], diameter; to a quarter of it the ring's radius is known
   double position = 0;  ///< [m], of the centre, per axis
   double tilt = 0;      ///< [rad], of the normal, per axis
   double bias = 0;  ///< [px], of the ring's image, common to all of its points, per camera and axis
@@ -52,14 +51,15 @@ struct RingPoint {
 /// A ring fitted to the points of all cameras.
 struct RingEstimate {
   Ring ring;
-  /// Of centre, turns and radius (see Ring::point), from the points' noise alone.
+  /// Of centre, turns and radius (see Ring::point), from the points' noise and the prior: without
+  /// the errors of the cameras' constants.
   Eigen::Matrix<double, 6, 6> cov = Eigen::Matrix<double, 6, 6>::Zero();
   /// For each camera d (centre, turns, radius) / d its constants, the bias that of the ring's image.
   std::vector<Eigen::Matrix<double, 6, kCameraConstants>> gains;
   ConstantsEvidence evidence;  ///< what the points' residuals say of the cameras' constants
   /// [px], for each camera how far all its points together lie from the ring's image.
   std::vector<Eigen::Vector2d> shifts;
-  double residual_px = 0;  ///< rms of the points used, the shifts taken off
+  double residual_px = 0;  ///< [px], rms of the points used, the shifts taken off
   int used = 0;            ///< points that were not cut away
 };
 

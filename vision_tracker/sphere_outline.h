@@ -14,10 +14,11 @@ struct Outline {
   double meanRadius() const;
 };
 
-/// Centre [px] (centroid of the area) of the outline of a sphere at p_W. It is not the image of the sphere's centre but lies
-/// farther out, by about r^2 / f tan(angle off the axis), and the lens bends it a little more. Good to 0.005 px for a radius
-/// of 10 px and the distortion of a common lens. `jacobian` (may be null): d centre / d p_W.
-/// The sphere must lie wholly in front of the camera.
+/// Centre [px] (centroid of the area) of the outline of a sphere at p_W [m] of `radius` [m]. It is
+/// not the image of the sphere's centre but lies farther out, by about r^2 / f tan(angle off the
+/// axis), r and f in pixels, and the lens bends it a little more. Good to 0.005 px for a radius of
+/// 10 px and the distortion of a common lens. `jacobian` (may be null): d centre / d p_W [px/m],
+/// that of the little more left out. The sphere must lie wholly in front of the camera.
 Eigen::Vector2d outlineCentre(const model::Camera& camera,
                               const Eigen::Vector3d& p_W,
                               double radius,

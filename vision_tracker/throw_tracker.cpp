@@ -23,15 +23,15 @@ constexpr int kMostMisses = 15;          // times
 constexpr int kWayMargin = 40;           // [px], around the predicted way to the plane
 constexpr std::size_t kWayInterval = 8;  // observations, between two looks at it
 
-bool same(const CameraSetup& a, const CameraSetup& b) {
+}  // namespace
+
+bool sameCamera(const CameraSetup& a, const CameraSetup& b) {
   return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
          a.camera.height == b.camera.height && a.camera.fx == b.camera.fx &&
          a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy &&
          a.camera.distortion == b.camera.distortion && a.camera.R_CW == b.camera.R_CW &&
          a.camera.p_CW == b.camera.p_CW;
 }
-
-}  // namespace
 
 ThrowTracker::ThrowTracker(const TrackerOptions& options)
     : options_(options),
@@ -43,7 +43,7 @@ void ThrowTracker::setCamera(int index, const CameraSetup& setup) {
   const auto i = static_cast<std::size_t>(index);
   if (i > eyes_.size())
     throw std::invalid_argument("cameras must be set one after another from 0");
-  if (i < eyes_.size() && same(eyes_[i].setup, setup))
+  if (i < eyes_.size() && sameCamera(eyes_[i].setup, setup))
     return;
   const Eye eye{setup, BallDetector(setup.camera, setup.exposure, options_.detector), {}};
   if (i == eyes_.size()) {

@@ -35,6 +35,9 @@ struct CameraSetup {
   double exposure = 0;  ///< [s]
 };
 
+/// Whether all numbers of two cameras are equal.
+bool sameCamera(const CameraSetup& a, const CameraSetup& b);
+
 /// What became of one image.
 struct Sighting {
   bool found = false;
@@ -59,23 +62,27 @@ struct LandingReport {
   std::string message;  ///< why not, or why the target was not measured
   LandingEstimate landing;
   int observations = 0;
-  double residual_px = 0;
+  double residual_px = 0;                  ///< [px], as FlightEstimate
   std::vector<double> clock, clock_sigma;  ///< [s], as FlightEstimate
 };
 
-/// Follows one ball through the images of all cameras, from the first that shows it flying to the target plane. The images
-/// must come in order of time, those of one time in order of camera; the results depend on nothing else.
+/// Follows one ball through the images of all cameras, from the first that shows it flying to the
+/// target plane. The images must come in order of time, those of one time in order of camera; the
+/// results depend on nothing else.
 class ThrowTracker {
  public:
   enum class State { kWaiting, kTracking, kLanded };
 
+  /// Switches OpenCV's own threads off, for the whole process: the images are small.
   explicit ThrowTracker(const TrackerOptions& options);
 
-  /// A camera's calibration; call for each before its first image. An unchanged one does nothing, another one forgets all images.
+  /// A camera's calibration; call for each before its first image. An unchanged one does nothing,
+  /// another one forgets all images.
+  /// @throw std::invalid_argument unless new indices come one after another, from 0
   void setCamera(int index, const CameraSetup& setup);
   /// Begins a throw: forgets every image.
   void begin(const model::Target& target);
-  /// An image (CV_8U, of the camera's size) at a time not before the last one's.
+  /// An image (CV_8U, of the camera's size) at a time [us] not before the last one's.
   Sighting add(int camera, int64_t utime, const cv::Mat& image);
   /// No image will come any more: a throw without a landing becomes "not measured".
   void end();

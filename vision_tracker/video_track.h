@@ -22,7 +22,8 @@ struct VideoTrack {
 
 /// What is known of the ball in a video.
 struct VideoBall {
-  double pixel_radius = 0;           ///< [px], approximate; 0: from camera, radius and depth
+  /// [px], approximate; 0: from radius and depth, which takes a calibrated camera.
+  double pixel_radius = 0;
   double radius = 0;                 ///< [m]
   double nearest = 0, farthest = 0;  ///< [m], depth before the camera
 };
@@ -34,16 +35,17 @@ VideoTrack trackVideo(const std::string& path,
                       const std::optional<model::Camera>& camera,
                       const VideoBall& ball);
 
-/// A table: frame, time [s], u, v, radius [px], cov_uu, cov_uv, cov_vv [px^2]; for a calibrated camera also x, y,
-/// z [m], the place in the world that direction and apparent size say.
+/// A table (CSV): frame, time [s], u, v, radius [px], cov_uu, cov_uv, cov_vv [px^2]; for a
+/// calibrated camera also x, y, z [m], the place in the world that direction and apparent size say.
 std::string tableOf(const VideoTrack& track,
                     const std::optional<model::Camera>& camera,
                     double ball_radius);
 
-/// Where a ball of this radius [m] is in the world, by its direction and its size in the image.
+/// Where a ball of this radius [m] is in the world [m], by its direction and its size in the image.
 Eigen::Vector3d placeBySize(const model::Camera& camera, const BallFit& fit, double ball_radius);
 
-/// One flight fitted to the tracks of two or more cameras whose videos begin at the same time.
+/// One flight fitted to the tracks of two to four cameras whose videos begin at the same time; its
+/// times count from there.
 /// @return nothing if no flight fits
 std::optional<FlightEstimate> flightOf(const std::vector<VideoTrack>& tracks,
                                        const std::vector<model::Camera>& cameras,

@@ -16,6 +16,7 @@ struct CampaignResults {
 };
 
 /// @throw std::invalid_argument if the folder has no campaign, or one without a single throw.
+/// @throw std::runtime_error as readRecord().
 CampaignResults readResults(const std::string& folder);
 
 /// Names of the strategies in the order of the cases, each once.

@@ -30,9 +30,10 @@ struct StudyRequest {
   int64_t seed = 1;  ///< of what a study draws
 };
 
-/// The cases of a study. What differs from the given files is written to `folder` as files of its own, so that `fastball run
-/// --config --uncertainty` can make each throw again.
-/// @throw std::invalid_argument with a sentence if the files do not have what is varied.
+/// The cases of a study. What differs from the given files is written to `folder` (made if absent)
+/// as files of its own, so that `fastball run --config --uncertainty` can make each throw again.
+/// @throw std::invalid_argument with a sentence if a file cannot be read, or as reachablePlaces().
+/// @throw YAML::Exception, a std::runtime_error, if the files do not have what is varied.
 std::vector<Case> casesOf(const StudyRequest& request, const std::string& folder);
 
 }  // namespace fastball::launch

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,7 +24,7 @@ struct ThrowOutcome {
 struct UnitResult {
   Unit unit;
   std::vector<ThrowOutcome> throws;
-  double wall_s = 0;  ///< [s]
+  double wall_s = 0;  ///< [s], wall time that they took
 };
 
 /// Finished units of a campaign's folder in the order of units, each once, whatever wrote them and however often. A last line cut
@@ -37,6 +36,7 @@ std::map<Unit, UnitResult> readRecord(const std::string& folder);
 class RecordFile {
  public:
   /// @param name of the file without ending; what an earlier process left under it stays.
+  /// @throw std::runtime_error if it cannot be written.
   RecordFile(const std::string& folder, const std::string& name);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;

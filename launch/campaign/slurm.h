@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +22,7 @@ class SlurmJob {
   /// Why some of it waits, in Slurm's words ("Resources"), as of the last question; empty: nothing waits.
   const std::string& waitsFor() const { return waits_for_; }
   /// Cancels it and waits until Slurm has ended it, at most a minute.
+  /// @throw std::runtime_error with Slurm's words if it refuses.
   void cancel();
 
  private:

@@ -7,7 +7,8 @@
 
 namespace fastball::launch {
 
-/// A rate with its 95 % interval of Wilson's: also near 0 and 1 it holds what it says.
+/// A rate with its 95 % interval of Wilson's (1927): also near 0 and 1 it holds what it says. Of
+/// nothing: from 0 to 1.
 struct Rate {
   int count = 0, of = 0;
   double value() const { return of > 0 ? static_cast<double>(count) / of : 0; }
@@ -29,7 +30,8 @@ struct CaseSummary {
   int landed = 0;                     ///< throws that crossed the target plane
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();        ///< [m], mean landing (right, up)
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< [m^2], of the landings about it
-  double release_speed = 0;                              ///< [m/s], mean
+  /// [m/s], mean; a ball that never left the hand counts as 0.
+  double release_speed = 0;
 };
 
 /// @param record of a campaign; the results of case number `case_index` count.

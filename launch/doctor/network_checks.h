@@ -6,6 +6,9 @@
 
 namespace fastball::launch {
 
+// All throw std::invalid_argument if the URL does not parse, the first three also if it is not
+// udpm's; all but the first throw std::runtime_error as messaging::LcmEndpoint.
+
 /// The route to the URL's group, its interface, and how far the messages go.
 Findings checkRoute(const std::string& lcm_url);
 
@@ -13,7 +16,8 @@ Findings checkRoute(const std::string& lcm_url);
 /// fragments arrive.
 Findings checkRoundTrip(const std::string& lcm_url);
 
-/// What the kernel keeps for a receiver that is busy: its limit, and how many bytes of images arrived of a burst nobody read.
+/// What the kernel keeps for a receiver that is busy: its limit, and how many images were lost of a
+/// burst that nobody read.
 Findings checkReceiveBuffer(const std::string& lcm_url);
 
 /// Listens to HEARTBEATs for a second: who is there, and how far each host's clock is from ours, by questions and answers.

@@ -17,7 +17,7 @@ struct Unloading {
 /// @throw std::invalid_argument unless the rate is positive.
 Unloading unloading(const model::BallParameters& ball, double rate);
 
-/// The elastic ball, from rest on the loaded fingers.
+/// The elastic ball, from rest on the loaded fingers. @param youngs_modulus [Pa]
 model::ElasticMotion elasticRelease(const Unloading& unloading, double youngs_modulus);
 /// The rigid ball.
 model::RollingMotion rigidRelease(const Unloading& unloading);

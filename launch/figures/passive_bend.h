@@ -17,8 +17,8 @@ struct BendMotion {
   Curve q2;                 ///< [s], [rad]
 };
 
-/// Joint 2 from rest at q2_start [rad], q1 = q3 = 0 then, for `duration` seconds in steps of
-/// `step`; integrated with a step of its own to 1e-10 rad.
+/// Joint 2 from rest at q2_start [rad], q1 = q3 = 0 then, for `duration` [s] in steps of `step`
+/// [s]; integrated with a step of its own to 1e-10 rad. @param qd1, qd3 [rad/s]
 BendMotion passiveBend(const model::SwingModel& model,
                        double qd1,
                        double qd3,

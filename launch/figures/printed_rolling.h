@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "model/rolling_ball.h"
 
 namespace fastball::launch {

@@ -45,7 +45,9 @@ Eigen::Vector2d landing(const PlannedRelease& release, LetGo how, double error);
 /// The rigid ball, the thumb gone at the error [s]; on fingers without ends if so wanted.
 model::RollingMotion rigidRoll(const PlannedRelease& release, double error, bool endless);
 
-/// Landing against error: slope [m/s] by least squares over `errors` [s].
+/// Landing against error: slope [m/s], to the right and up, by least squares over `errors` [s].
+/// @throw std::runtime_error as landing(); std::invalid_argument unless there are two different
+///   errors.
 Eigen::Vector2d landingShift(const PlannedRelease& release,
                              LetGo how,
                              const std::vector<double>& errors);

@@ -11,13 +11,14 @@ namespace fastball::launch {
 /// nobody felt it leave, the planned release, or else the first state of arm or hand.
 struct ThrowTimes {
   int64_t origin = 0;                    ///< [us]
-  std::string of_origin;                 ///< "the departure of the ball", ...
+  std::string of_origin;                 ///< "the ball's departure", ...
   std::optional<double> swing;           ///< the swing begins, as planned
   std::optional<double> swing_end;       ///< the follow-through begins, as planned
   std::optional<double> command;         ///< the hand is told to let go
   std::optional<double> departure;       ///< the ball leaves
   std::optional<double> window[2] = {};  ///< in which the ball may leave, as planned
 
+  /// [s], of a simulated time [us].
   double at(int64_t utime) const { return 1e-6 * static_cast<double>(utime - origin); }
 };
 

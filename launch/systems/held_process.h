@@ -28,7 +28,9 @@ std::string shellQuoted(const std::string& word);
 class HeldProcess {
  public:
   using OnLine = std::function<void(const std::string& line)>;
+  /// `on_line` is called by whoever runs `context`, which must outlive this object.
   /// @param over_ssh so that ssh's own failure is told from the program's
+  /// @param output_path of a file to which the output is added
   /// @throw std::runtime_error if it cannot be started.
   HeldProcess(boost::asio::io_context& context,
               const std::vector<std::string>& command,
@@ -39,17 +41,19 @@ class HeldProcess {
   HeldProcess(const HeldProcess&) = delete;
   HeldProcess& operator=(const HeldProcess&) = delete;
 
-  /// Tells the other end that this one lives.
+  /// Tells the other end that this one lives. Does not block.
   void sayAlive();
   /// Asks it to end.
   void letGo();
   /// Ends it from here at once.
   void kill();
   bool running();
-  /// "ended with exit status 1", "was ended by signal 9 (Killed)", "could not be reached" (ssh's own failure)...
+  /// Once it is not running(): "ended by itself with exit status 1", "was ended by signal 9
+  /// (Killed)", "the connection ended (ssh's exit status 255)", ...
   std::string ending() const;
+  /// Once it is not running(): with exit status 0.
   bool endedWell() const;
-  /// The last lines of its output.
+  /// The last ten lines of its output.
   std::vector<std::string> lastLines() const;
 
  private:

@@ -6,11 +6,13 @@
 
 namespace fastball::launch {
 
-/// Where the launcher of a system leaves what `down` and `ps` need, of this user on this machine: one folder for each system
-/// file, with the processes' output.
+/// Where the launcher of a system leaves what `down` and `ps` need, of this user on this machine:
+/// one folder for each system file, with the processes' output, in $XDG_RUNTIME_DIR/fastball or
+/// else in fastball-UID in the folder for temporary files. What cannot be written there throws
+/// std::runtime_error.
 class StateFolder {
  public:
-  /// @param system_path absolute path of the system file
+  /// Makes the folder. @param system_path absolute path of the system file
   explicit StateFolder(const std::string& system_path);
   ~StateFolder();
   StateFolder(const StateFolder&) = delete;

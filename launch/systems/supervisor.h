@@ -27,8 +27,10 @@ class Supervisor {
   };
 
   Supervisor(System system, StateFolder& folder, Listener listener);
-  /// @throw std::runtime_error, once all are stopped again, if one did not become ready or one of their names is on the
-  /// network already.
+  /// Returns after a SIGINT or SIGTERM, when all are stopped.
+  /// @throw std::runtime_error, once all are stopped again, if one did not become ready, a
+  ///   machine's clock is off by more than the system's clock_limit, or one of their names is on
+  ///   the network already.
   void run();
 
  private:

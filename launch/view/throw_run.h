@@ -39,10 +39,11 @@ class ThrowRun {
   void start(const ThrowOrder& order);
   /// Tells the run to end.
   void stop();
+  /// Looks whether the newest run goes on; the two below are as of the last look.
   bool goesOn();
   /// True if the newest run has ended and has not made its throws.
   bool failed() const { return failed_; }
-  /// The last lines that the newest run has written.
+  /// The last lines that it has written.
   std::string words() const { return words_; }
 
  private:

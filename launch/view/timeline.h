@@ -30,6 +30,8 @@ enum SampleValue {
   kSampleValues = kPoints + 3 * kFigurePoints
 };
 
+// In all of these t [s] is on the time axis (TimeAxis).
+
 /// Arm and hand at one time; what was not heard is not a number.
 struct Sample {
   double t = 0;
@@ -50,8 +52,8 @@ struct Picture {
 
 struct TrackPoint {
   double t = 0;
-  int64_t number = 0;  ///< of the throw
-  Eigen::Vector3d p_W;
+  int64_t number = 0;    ///< of the throw
+  Eigen::Vector3d p_W;   ///< [m], of the ball
   bool measured = true;  ///< false: before the first fit, by that fit run backwards
 };
 
@@ -66,15 +68,18 @@ struct TimelineLimits {
   int keep_every = 1;                            ///< of the samples
 };
 
-/// What the messages of an experiment have told, in the order of its time axis: all that viewers see. Messages come in by take();
-/// what does not decode or breaks its rule is counted. SIM_TRUTH is not among what it knows: nobody but the judge hears that.
+/// What the messages of an experiment have told, in the order of its time axis: all that viewers
+/// see. Messages come in by take(); what does not decode or breaks its rule is counted. SIM_TRUTH
+/// is not among what it knows: nobody but the judge hears that.
 class Timeline {
  public:
+  /// `floor` [m]: as of Figure.
   Timeline(const config::Experiment& experiment, double floor, TimelineLimits limits = {});
   Timeline(const Timeline&) = delete;
   Timeline& operator=(const Timeline&) = delete;
 
-  /// An encoded message, received at `utime` [us]. `log_offset`: of its record where it comes from a log, which keeps its images.
+  /// An encoded message, received at `utime` [us since 1970]. `log_offset`: of its record [bytes]
+  /// where it comes from a log, which keeps its images.
   void take(const std::string& channel,
             const void* data,
             std::size_t size,
@@ -83,6 +88,7 @@ class Timeline {
   /// A regular expression for the channels that it knows.
   std::string channels() const;
 
+  /// [s], of the newest message.
   double now() const { return axis_.now(); }
   const Kept<Sample>& samples() const { return samples_; }
   const Kept<Heard>& heartbeats() const { return heartbeats_; }

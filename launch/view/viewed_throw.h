@@ -17,9 +17,9 @@ struct ViewedThrow {
   double t = 0;        ///< [s] on the time axis, when it was first heard of
   std::optional<model::Target> target;
   std::string strategy;
-  std::optional<swing_plan_t> plan;  ///< without its samples
-  double t_plan = 0;                 ///< [s]
-  std::vector<Eigen::Vector3d> planned_flight;
+  std::optional<swing_plan_t> plan;             ///< without its samples
+  double t_plan = 0;                            ///< [s]
+  std::vector<Eigen::Vector3d> planned_flight;  ///< [m], p_WBall at even times
   std::optional<throw_start_t> start;
   std::optional<double> offset;  ///< [s], from simulated time to the time axis, once its scene runs
   double t_scene = 0;            ///< [s], when it began
@@ -27,7 +27,7 @@ struct ViewedThrow {
   std::optional<landing_t> landing;
   double t_landing = 0;  ///< [s], when the landing was heard
   std::string note;      ///< what went wrong, or empty
-  double t_note = 0;
+  double t_note = 0;     ///< [s], when that was heard
   int64_t track_points = 0;
   int64_t serial = 0;  ///< greater than that of every change before
 };

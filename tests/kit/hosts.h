@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -8,9 +9,11 @@
 
 namespace fastball::test_kit {
 
-/// Several machines in one test, without root: each host is a network, host name and mount namespace of its own, with
-/// the address 10.67.0.1, .2, ... on a switch (a bridge) and a multicast route through it. They share disk, processes
-/// and the clock; nothing of this machine's own network is touched. All that runs on a host ends with this object.
+/// Several machines in one test, without root: each host is a network, host name and mount
+/// namespace of its own, with the address 10.67.0.1, .2, ... on a switch (a bridge) and a multicast
+/// route through it. They share disk, processes and the clock; nothing of this machine's own
+/// network is touched. All that runs on a host ends with this object. What cannot be done to a host
+/// throws std::runtime_error.
 class Hosts {
  public:
   /// Why such hosts cannot be had here, a sentence for GTEST_SKIP; empty: they can.
@@ -32,7 +35,8 @@ class Hosts {
   int start(const std::string& host, const std::vector<std::string>& command);
   /// Runs a program on the host to its end. @return its exit status; -1 if a signal ended it.
   int run(const std::string& host, const std::vector<std::string>& command) const;
-  /// Calls `action` on the host's network: an LcmEndpoint made in it stays there. What is `action` throws comes through.
+  /// Calls `action` on the host's network, on a thread of its own, and waits for it: an LcmEndpoint
+  /// made in it stays there. What `action` throws comes through.
   void on(const std::string& host, const std::function<void()>& action) const;
   /// Path of a program that stands in for ssh (`ADDRESS LINE`), where ADDRESS is a host's name. Its connection is no network's:
   /// it outlives a cut link.
@@ -41,7 +45,8 @@ class Hosts {
   /// Pulls the host's cable out of the switch, and puts it in again.
   void cutLink(const std::string& host) const;
   void restoreLink(const std::string& host) const;
-  /// Loses this share of the packets that the host would receive, by chance; 0: none any more. Needs nftables.
+  /// Loses this share, 0 to 1, of the packets that the host would receive, by chance; 0: none any
+  /// more. Needs nftables.
   void losePackets(const std::string& host, double share) const;
   /// Stops all that runs on the host, as a machine that hangs; lets it go on; ends it, as a machine without power.
   void freeze(const std::string& host) const;

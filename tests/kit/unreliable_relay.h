@@ -7,7 +7,7 @@
 
 namespace fastball::test_kit {
 
-/// What a bad network does to messages: each of these befalls the given share of them.
+/// What a bad network does to messages: each of these befalls the given share of them, 0 to 1.
 struct Mischief {
   double lost = 0;
   double duplicated = 0;
