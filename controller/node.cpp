@@ -88,7 +88,8 @@ class ControllerNode : public messaging::Node {
 
  private:
   const char* word() const {
-    if (controller_.running() && !controller_.stopped())
+    // A scene that lasts as long as its plan may end a tick before it: the next order counts all the same.
+    if (controller_.running() && !controller_.stopped() && !controller_.armed())
       return "running";
     if (controller_.refused())
       return "refused";

@@ -79,6 +79,25 @@ TEST_F(ControllerNode, AThrowFromPlanToHold) {
   EXPECT_LT(statuses_.back().q_error_max[0], 1e-3);
 }
 
+TEST_F(ControllerNode, TakesTheNextOrderThoughTheSceneEndedATickBeforeItsPlan) {
+  say(messaging::kSwingPlan, planMessage(swingPlan()));
+  say(messaging::kThrowStart, startMessage(1, 1, 600'000));
+  SimulatedArm robot{testArm(), kBack};
+  for (int tick = 0; tick < 1600; ++tick) {
+    say(messaging::kArmState, stateMessage(1, tick, robot.q, robot.qd));
+    robot.tick(Eigen::Map<const Eigen::Vector4d>(commands_.back().tau));
+  }
+  EXPECT_EQ(heard(), "running");
+  say(messaging::kSwingPlan, planMessage(swingPlan(2)));
+  say(messaging::kThrowStart, startMessage(2, 2, 10'600'000));
+  EXPECT_EQ(heard(), "armed");
+  arm_state_t state = stateMessage(2, 0, kBack, Eigen::Vector4d::Zero());
+  state.utime = 10'000'000;
+  say(messaging::kArmState, state);
+  EXPECT_EQ(heard(), "armed");
+  EXPECT_EQ(commands_.back().plan_id, 2);
+}
+
 TEST_F(ControllerNode, ARepeatedStateGetsItsAnswerAgain) {
   for (int i = 0; i < 3; ++i)
     say(messaging::kArmState, stateMessage(1, 0, kBack, Eigen::Vector4d::Zero()));
