@@ -11,7 +11,6 @@
 namespace fastball::config {
 namespace {
 
-constexpr int kMostCameras = 4;
 constexpr int kLargestSide = 16384;  // [px]
 
 /// One camera's map in the file.
@@ -137,9 +136,9 @@ std::vector<model::Camera> readCalibration(const std::string& path) {
     cameras.push_back(CameraReader(path, "", file.root()).read());
     return cameras;
   }
-  if (!list.isSeq() || list.size() < 1 || list.size() > kMostCameras)
-    throw std::invalid_argument(
-        fmt::format("{}: key 'cameras' must be a list of one to {} cameras", path, kMostCameras));
+  if (!list.isSeq() || list.size() < 1 || list.size() > model::kMostCameras)
+    throw std::invalid_argument(fmt::format("{}: key 'cameras' must be a list of one to {} cameras",
+                                            path, model::kMostCameras));
   for (std::size_t i = 0; i < list.size(); ++i)
     cameras.push_back(
         CameraReader(path, fmt::format("camera {}: ", i + 1), list[static_cast<int>(i)]).read());

@@ -13,7 +13,7 @@ namespace fastball::config {
 ///   distortion_coefficients        4 or 5 numbers: k1 k2 p1 p2 k3
 ///   R, T                           3x3 or a rotation vector; 3 numbers [m]: p_C = R p_W + T. Both may be missing: the world is
 ///                                  then the camera's own frame.
-/// or up to four such maps in a list `cameras`.
+/// or up to model::kMostCameras such maps in a list `cameras`.
 /// @throw std::invalid_argument naming file and key, if anything is missing or cannot be a camera's
 std::vector<model::Camera> readCalibration(const std::string& path);
 

@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 using vision_tracker::BoardCalibration;
 using vision_tracker::CameraImages;
 
-constexpr std::size_t kMostCameras = 4;
-
 struct CalibrateOptions {
   std::vector<std::string> images;  ///< files of one camera, or a folder for each
   std::vector<double> board_pose;   ///< x, y, z [m], roll, pitch, yaw [rad]
@@ -75,9 +73,9 @@ std::vector<CameraImages> readImages(const std::vector<std::string>& paths) {
 }
 
 void requireNames(const std::vector<CameraImages>& cameras) {
-  if (cameras.size() > kMostCameras)
+  if (cameras.size() > model::kMostCameras)
     throw std::invalid_argument(fmt::format("there are {} cameras, at most {} can be calibrated",
-                                            cameras.size(), kMostCameras));
+                                            cameras.size(), model::kMostCameras));
   for (std::size_t i = 0; i < cameras.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (cameras[i].name == cameras[j].name)
@@ -209,7 +207,8 @@ void addCalibrateCommand(CLI::App& app, int& exit_status) {
   command->add_option(
       "--world", options->world,
       "The image in which the board defines the world: x along its rows, y down its "
-      "columns, origin at its first corner (default: the first; without it, one "
+      "columns, origin at the outer corner of its first square (default: the first; without it, "
+      "one "
       "camera's world is its own frame)");
   command
       ->add_option(

@@ -5,6 +5,10 @@
 
 namespace fastball::model {
 
+/// Cameras of one experiment at most: a calibration file holds no more, and a flight is fitted to
+/// the images of no more.
+inline constexpr int kMostCameras = 4;
+
 /// A pinhole camera with OpenCV's five distortion coefficients. Pixel centres lie at whole numbers.
 struct Camera {
   int width = 0, height = 0;                                                     ///< [px]

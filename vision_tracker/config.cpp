@@ -11,13 +11,11 @@ namespace fastball::vision_tracker {
 
 namespace {
 
-constexpr std::size_t kMostCameras = 4;
-
 std::vector<std::string> readCameras(config::Section& section) {
   std::vector<std::string> names = section.texts("cameras");
-  if (names.empty() || names.size() > kMostCameras)
+  if (names.empty() || names.size() > model::kMostCameras)
     throw section.error("cameras", fmt::format("names {} cameras, there can be one to {}",
-                                               names.size(), kMostCameras));
+                                               names.size(), model::kMostCameras));
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!config::isImageChannel(names[i]))
       throw section.error("cameras",

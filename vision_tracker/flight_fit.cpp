@@ -1,5 +1,9 @@
 #include "vision_tracker/flight_fit.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "vision_tracker/flight_problem.h"
 
 namespace fastball::vision_tracker {
@@ -8,6 +12,13 @@ namespace {
 constexpr int kIterations = 15;
 constexpr int kRobustIterations = 2;  // with Huber's weights, before anything is cut
 constexpr std::size_t kLeastObservations = 8;
+
+void requireFew(const std::vector<model::Camera>& cameras) {
+  if (cameras.size() > model::kMostCameras)
+    throw std::invalid_argument(
+        fmt::format("a flight cannot be fitted to the images of {} cameras, only of one to {}",
+                    cameras.size(), model::kMostCameras));
+}
 
 /// Steps until they are small. @param robust so many with Huber's weights before anything is cut
 std::optional<FlightEstimate> solved(FlightProblem& problem, int robust) {
@@ -38,6 +49,7 @@ std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observat
                                         const FlightPrior& prior,
                                         const model::BallState& guess,
                                         int64_t guess_utime) {
+  requireFew(cameras);
   if (observations.size() < first + kLeastObservations)
     return std::nullopt;
   FlightProblem problem(observations, first, cameras, prior);
@@ -51,6 +63,7 @@ std::optional<FlightEstimate> refitFlight(const std::vector<Observation>& observ
                                           const std::vector<model::Camera>& cameras,
                                           const FlightPrior& prior,
                                           const FlightEstimate& last) {
+  requireFew(cameras);
   if (observations.size() < first + kLeastObservations)
     return std::nullopt;
   FlightProblem problem(observations, first, cameras, prior);

@@ -17,10 +17,10 @@ namespace fastball::vision_tracker {
 /// derivative of the centres by those errors and C their covariance ("consider parameters", S. F.
 /// Schmidt, "Application of state-space methods to navigation problems", 1966).
 /// @param observations in order of time; @param first use those from this index on
-/// @param cameras at most FlightProblem::kMostCameras
 /// @param guess start, at guess_utime [us]; drag begins at the prior
 /// @return nothing if it does not converge, the flight leaves the space before a camera, or fewer
 ///   than eight observations are left
+/// @throw std::invalid_argument for more than model::kMostCameras cameras
 std::optional<FlightEstimate> fitFlight(const std::vector<Observation>& observations,
                                         std::size_t first,
                                         const std::vector<model::Camera>& cameras,

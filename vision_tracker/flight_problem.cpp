@@ -54,7 +54,7 @@ FlightProblem::FlightProblem(const std::vector<Observation>& observations,
   };
   for (int i = 7; i < kClock; ++i)
     know(i, prior.magnus_sigma, true);
-  for (int camera = 1; camera < kMostCameras; ++camera)
+  for (int camera = 1; camera < model::kMostCameras; ++camera)
     know(kClock + camera - 1, prior.clock_sigma, camera < static_cast<int>(cameras.size()));
   know(kSize, prior.radius_sigma, with_radius_);
   know(kSizeRate, prior.radius_sigma, with_radius_);

@@ -13,9 +13,8 @@ namespace fastball::vision_tracker {
 /// One flight fitted to observations by Gauss-Newton: the residuals, the steps and what comes out.
 class FlightProblem {
  public:
-  static constexpr int kMostCameras = 4;
   static constexpr int kClock = kFlightParameters;  ///< index of the second camera's clock
-  static constexpr int kSize = kClock + kMostCameras - 1;
+  static constexpr int kSize = kClock + model::kMostCameras - 1;
   static constexpr int kSizeRate = kSize + 1;
   static constexpr int kUnknowns = kSizeRate + 1;
   /// The flight; the clocks of the other cameras against the first one's [s]; the relative error of the radii at the start, and

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "bench/synthetic_throw.h"
 #include "sim_bullet/camera_config.h"
@@ -247,6 +248,12 @@ TEST_F(FlightFit, RefusesTooFewObservations) {
   observations.resize(7);
   EXPECT_FALSE(landed(observations));
   EXPECT_FALSE(fitFreeFlight({}, cameras_, prior_, guess(), 5000000, nullptr));
+}
+
+TEST_F(FlightFit, RefusesMoreCamerasThanItHasClocksFor) {
+  cameras_.resize(model::kMostCameras + 1, cameras_.front());
+  EXPECT_THROW(fitFlight(observe(kSigma), 0, cameras_, prior_, guess(), 5000000),
+               std::invalid_argument);
 }
 
 TEST_F(FlightFit, LandsNowhereIfThePlaneIsNotCrossed) {
