@@ -60,6 +60,8 @@ CopyResult copyLog(const std::string& path, const std::string& new_path, const L
 }
 
 CopyResult mergeLogs(const std::vector<std::string>& paths, const std::string& new_path) {
+  if (paths.empty())
+    throw std::invalid_argument("there is no log to merge");
   std::vector<std::unique_ptr<Source>> sources;
   sources.reserve(paths.size());
   for (const std::string& path : paths)

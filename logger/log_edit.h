@@ -32,8 +32,8 @@ struct LogPart {
 CopyResult copyLog(const std::string& path, const std::string& new_path, const LogPart& part = {});
 
 /// Merges logs by receive time. Messages of one log stay in their order; of two at the same time
-/// that of the log named first comes first. Throws as copyLog(), but a log may hold no message.
-/// @param paths at least one
+/// that of the log named first comes first. Throws as copyLog(), but a log may hold no message; and
+/// std::invalid_argument if there is none.
 CopyResult mergeLogs(const std::vector<std::string>& paths, const std::string& new_path);
 
 }  // namespace fastball::logger

@@ -142,6 +142,8 @@ std::string firstUsed(const BoardCalibration& camera) {
 RigCalibration calibrateRig(const std::vector<CameraImages>& images,
                             const BoardShape& shape,
                             const WorldBoard& world) {
+  if (images.empty())
+    throw std::invalid_argument("there is no camera to calibrate");
   RigCalibration rig;
   for (const CameraImages& camera : images) {
     try {

@@ -32,10 +32,9 @@ struct RigCalibration {
 
 /// Each camera by itself, and then their poses, from the views that two of them share: images of one name were taken at the same
 /// time, while all cameras stood still. Poses go from camera to camera along the pairs with the most views in common.
-/// @param images of at least one camera
-/// @throw std::invalid_argument as calibrateFromBoard(), naming the camera; if a camera shares
-///   fewer than three views with those that hang together already; or if the world's view cannot be
-///   used
+/// @throw std::invalid_argument for no camera; as calibrateFromBoard(), naming the camera; if a
+///   camera shares fewer than three views with those that hang together already; or if the world's
+///   view cannot be used
 RigCalibration calibrateRig(const std::vector<CameraImages>& images,
                             const BoardShape& shape,
                             const WorldBoard& world);

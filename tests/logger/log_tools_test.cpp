@@ -112,6 +112,11 @@ TEST_F(LogFiles, AMergeIsInOrderOfTime) {
   EXPECT_THAT(readSeqs(path("d.lcmlog")), ElementsAre(0, 1, 2, 3, 4, 4, 5, 9));
 }
 
+TEST_F(LogFiles, AMergeOfNoLogIsRefused) {
+  EXPECT_THROW(mergeLogs({}, path("a.lcmlog")), std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(path("a.lcmlog")));
+}
+
 TEST_F(LogFiles, NoLogIsOverwritten) {
   writeStates(path("a.lcmlog"), {0, 1});
   EXPECT_THROW(copyLog(path("a.lcmlog"), path("a.lcmlog")), std::invalid_argument);

@@ -122,6 +122,10 @@ TEST_F(Rigs, NameTheCameraThatCannotBeCalibrated) {
               HasSubstr("'view99' cannot be the world's view"));
 }
 
+TEST_F(Rigs, RefuseNoCamera) {
+  EXPECT_EQ(refusal({}, {}), "there is no camera to calibrate");
+}
+
 class Collectors : public Rigs {
  protected:
   BoardCollector collector_{shape_, {"left", "right"}};
