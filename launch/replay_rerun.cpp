@@ -136,7 +136,7 @@ class Rerun {
     const auto deadline = Steady::now() + std::chrono::duration<double>(timeout);
     while (endpoint_.drain(), !condition()) {
       if (const auto sentence = processes_.ended())
-        throw std::runtime_error(*sentence + "\n" + processes_.lastOutput(part_.heartbeat));
+        throw std::runtime_error(*sentence);
       if (Steady::now() > deadline)
         return false;
       pollfd waiting{endpoint_.fileDescriptor(), POLLIN, 0};
