@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "camera/told_rate.h"
+
 namespace fastball::camera {
 namespace {
 
@@ -50,8 +52,7 @@ Device::Device(DeviceOptions options, const messaging::Clock& clock)
     ask(cv::CAP_PROP_AUTO_EXPOSURE, kManualExposure, "manual exposure");
     ask(cv::CAP_PROP_EXPOSURE, options_.exposure / kExposureUnit, "the exposure");
   }
-  const double told = capture_.get(cv::CAP_PROP_FPS);
-  rate_ = std::isfinite(told) && told > 0.1 && told < 1e5 ? told : 0;
+  rate_ = toldRate(capture_);
 }
 
 std::optional<SourceImage> Device::next() {

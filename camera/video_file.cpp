@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
+
+#include "camera/told_rate.h"
 
 namespace fastball::camera {
 
 VideoFile::VideoFile(std::string path, bool loop) : path_(std::move(path)), loop_(loop) {
   open();
-  const double told = video_.get(cv::CAP_PROP_FPS);
-  rate_ = std::isfinite(told) && told > 0.1 && told < 1e5 ? told : 0;
+  rate_ = toldRate(video_);
 }
 
 void VideoFile::open() {

@@ -19,12 +19,7 @@ model::BallState flightAt(const ball_track_t& fit, int64_t utime, double gravity
     throw std::runtime_error(fmt::format(
         "BALL_TRACK is {:.0f} s from the time that is asked for, no flight is longer than {:.0f} s",
         std::abs(t), kLongestFlight));
-  if (t >= 0)
-    return model::fly({p, v}, t, fit.drag, gravity);
-  // Seen backwards in time a flight is one with drag of the other sign.
-  model::BallState state = model::fly({p, -v}, -t, -fit.drag, gravity);
-  state.v_WBall *= -1;
-  return state;
+  return model::fly({p, v}, t, fit.drag, gravity);
 }
 
 }  // namespace fastball::launch

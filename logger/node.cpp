@@ -18,8 +18,6 @@ constexpr int64_t kStatusPeriodUs = 1'000'000;
 constexpr int64_t kWatchPeriodUs = 100'000;
 /// So long without a drop, and dropping has ended: a slow disk drops now and then.
 constexpr int64_t kDropsEndUs = 2'000'000;
-/// LCM talks to itself on this channel when it starts.
-constexpr const char* kSelfTest = "LCM_SELF_TEST";
 
 std::string timeOfDay(int64_t utime) {
   const std::time_t seconds = utime / 1'000'000;
@@ -44,7 +42,7 @@ class LoggerNode : public messaging::Node {
         next_status_us_(clock.monotonicUs()) {
     endpoint.subscribeRaw(".*", [this](const std::string& channel, const void* data,
                                        std::size_t size, int64_t utime) {
-      if (channel == kSelfTest || !filter_.wants(channel))
+      if (channel == messaging::kSelfTestChannel || !filter_.wants(channel))
         return;
       missing_ += gaps_.missingBefore(channel, data, size);
       recorder_.add(channel, {static_cast<const char*>(data), size}, utime);

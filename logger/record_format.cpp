@@ -1,14 +1,9 @@
 #include "logger/record_format.h"
 
+#include "messaging/big_endian.h"
+
 namespace fastball::logger {
 namespace {
-
-uint64_t bigEndian(const char* bytes, int size) {
-  uint64_t value = 0;
-  for (int i = 0; i < size; ++i)
-    value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
 
 void append(std::string& bytes, uint64_t value, int size) {
   for (int i = size - 1; i >= 0; --i)
@@ -23,7 +18,7 @@ bool isCount(int64_t value) {
 }  // namespace
 
 int64_t int64At(const char* bytes) {
-  return static_cast<int64_t>(bigEndian(bytes, 8));
+  return static_cast<int64_t>(messaging::bigEndian({bytes, 8}));
 }
 
 bool parseHeader(const char* bytes, RecordHeader& header) {
@@ -31,8 +26,8 @@ bool parseHeader(const char* bytes, RecordHeader& header) {
     return false;
   header.number = int64At(bytes + 4);
   header.utime = int64At(bytes + 12);
-  header.channel_bytes = bigEndian(bytes + 20, 4);
-  header.data_bytes = bigEndian(bytes + 24, 4);
+  header.channel_bytes = messaging::bigEndian({bytes + 20, 4});
+  header.data_bytes = messaging::bigEndian({bytes + 24, 4});
   return isCount(header.number) && isCount(header.utime) &&
          canBeRecorded(header.channel_bytes, header.data_bytes);
 }

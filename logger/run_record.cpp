@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,14 +10,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "messaging/heartbeat.h"
+
 namespace fastball::logger {
 namespace {
-
-std::string hostName() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
 
 std::string readText(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -83,7 +78,7 @@ void writeRunRecord(const std::string& log_path, const RunRecord& record, int64_
   const nlohmann::json json = {{"version", record.version},
                                {"command_line", record.command_line},
                                {"seed", record.seed},
-                               {"host", hostName()},
+                               {"host", messaging::hostName()},
                                {"start_utime", start_utime},
                                {"config", record.config_path},
                                {"configuration", configurationTexts(record.config_path)}};

@@ -10,6 +10,9 @@ namespace fastball::messaging {
 
 inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
+/// The channel on which LCM talks to itself when it starts.
+inline constexpr const char* kSelfTestChannel = "LCM_SELF_TEST";
+
 /// The URL used when none is named: $FASTBALL_LCM_URL, else $LCM_DEFAULT_URL, else kDefaultLcmUrl.
 std::string defaultLcmUrl();
 

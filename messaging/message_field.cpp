@@ -5,15 +5,10 @@
 #include <charconv>
 #include <cstring>
 
+#include "messaging/big_endian.h"
+
 namespace fastball::messaging {
 namespace {
-
-uint64_t bigEndian(std::string_view bytes) {
-  uint64_t value = 0;
-  for (const char byte : bytes)
-    value = value << 8 | static_cast<unsigned char>(byte);
-  return value;
-}
 
 template <class Real, class Bits>
 Real fromBits(uint64_t value) {

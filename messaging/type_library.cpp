@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "messaging/big_endian.h"
 #include "messaging/command_trailer.h"
 
 extern "C" {
@@ -27,10 +28,7 @@ constexpr int kMaxDepth = 32;
 const std::string kTypeInfo = "_get_type_info";
 
 int64_t fingerprint(const void* data) {
-  uint64_t value = 0;
-  for (std::size_t i = 0; i < kFingerprintBytes; ++i)
-    value = value << 8 | static_cast<const unsigned char*>(data)[i];
-  return static_cast<int64_t>(value);
+  return static_cast<int64_t>(bigEndian({static_cast<const char*>(data), kFingerprintBytes}));
 }
 
 bool endsWith(const std::string& text, const std::string& end) {

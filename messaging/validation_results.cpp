@@ -1,9 +1,9 @@
+#include "messaging/channels.h"
 #include "messaging/validation_check.h"
 
 namespace fastball::messaging {
 namespace {
 
-constexpr int32_t kMaxImageBytes = 60000;
 constexpr int32_t kMostEvents = 1000000;
 constexpr int32_t kMaxPixels = 8192;  // of an image's side
 
@@ -15,7 +15,7 @@ std::optional<std::string> fault(const image_t& m) {
       .within<int32_t>("width", m.width, 1, kMaxPixels)
       .within<int32_t>("height", m.height, 1, kMaxPixels)
       .within<int32_t>("row_stride", m.row_stride, m.width, 4 * kMaxPixels)
-      .within<int32_t>("size", m.size, 1, kMaxImageBytes)
+      .within<int32_t>("size", m.size, 1, int32_t{kDatagramBytes})
       .length("data", m.data.size(), "size", m.size);
   const bool gray = m.pixelformat == image_t::GRAY;
   if (check.good() && !gray && m.pixelformat != image_t::MJPEG) {

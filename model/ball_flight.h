@@ -19,7 +19,8 @@ Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W,
                                    double drag_per_metre,
                                    double gravity);
 
-/// The ball `duration` [s] later (Runge-Kutta 4, steps of at most 5 ms).
+/// The ball `duration` [s] later, or earlier if that is negative (Runge-Kutta 4, steps of at most
+/// 5 ms).
 BallState fly(const BallState& start, double duration, double drag_per_metre, double gravity);
 
 /// The same with first derivatives by the velocity at the start; by the position they are the identity and zero, by the duration

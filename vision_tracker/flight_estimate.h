@@ -10,6 +10,9 @@
 
 namespace fastball::vision_tracker {
 
+/// [us], images of several cameras no farther apart than this are of one moment.
+inline constexpr int64_t kSameMoment = 500;
+
 /// [s], between two times in microseconds.
 inline double seconds(int64_t from, int64_t to) {
   return static_cast<double>(to - from) * 1e-6;

@@ -11,9 +11,6 @@
 
 namespace fastball::vision_tracker {
 
-/// [us], cameras' images nearer than this are of one moment.
-constexpr int64_t kSameMoment = 500;
-
 /// Ball-like things in one image.
 struct CameraSightings {
   int camera = 0;

@@ -44,11 +44,11 @@ bool agrees(const std::vector<Observation>& observations,
   return true;
 }
 
-/// Index of the first observation of each time; observations less than half a millisecond apart are of one time.
+/// Index of the first observation of each moment.
 std::vector<std::size_t> timesOf(const std::vector<Observation>& observations) {
   std::vector<std::size_t> times;
   for (std::size_t i = 0; i < observations.size(); ++i)
-    if (times.empty() || observations[i].utime - observations[times.back()].utime > 500)
+    if (times.empty() || observations[i].utime - observations[times.back()].utime > kSameMoment)
       times.push_back(i);
   return times;
 }

@@ -14,7 +14,8 @@ constexpr double kLeastWay = 4;     // radii, of a path from end to end
 constexpr double kFirstReach = 14;  // radii between a path's first two sightings
 constexpr double kSizeRatio =
     1.6;  // between the longest path's ball and that of another of the same ball
-constexpr double kReach = 3;  // radii about the predicted place
+constexpr double kBlur = 0.8;  // [px], standard deviation of lens and pixel together
+constexpr double kReach = 3;   // radii about the predicted place
 
 /// A camera so far away that a ball is a circle wherever it is in the image. The ball has a radius of 1.
 model::Camera distantCamera(const cv::Size& size) {
@@ -32,7 +33,7 @@ DetectorOptions detectorOptions(const model::Camera& camera, const PixelTrackerO
   detector.ball_radius = 1;
   detector.nearest = camera.fx / options.largest;
   detector.farthest = camera.fx / options.smallest;
-  detector.blur = options.blur;
+  detector.blur = kBlur;
   detector.noise_floor = 0.05;
   detector.keep_uneven = true;
   return detector;

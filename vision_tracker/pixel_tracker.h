@@ -19,7 +19,6 @@ struct PixelSighting {
 /// What a PixelTracker looks for.
 struct PixelTrackerOptions {
   double smallest = 0, largest = 0;  ///< [px], radius of the ball
-  double blur = 0.8;                 ///< [px], standard deviation of lens and pixel together
 };
 
 /// Follows a ball through the images of one camera that stands still, without any calibration: round things of the

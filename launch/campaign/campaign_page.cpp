@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
@@ -35,9 +34,7 @@ std::vector<Html> caseRow(const Case& one, const CaseSummary& s) {
                         percent(s.hits),    interval(s.hits),       percent(s.cleans),
                         interval(s.cleans), percent(s.settled_hits)};
   row.push_back(s.landed > 0 ? pair(s.bias.x(), s.bias.y(), "{:+.1f}, {:+.1f}") : Html{});
-  row.push_back(s.landed > 1 ? pair(std::sqrt(s.covariance(0, 0)), std::sqrt(s.covariance(1, 1)),
-                                    "{:.1f}, {:.1f}")
-                             : Html{});
+  row.push_back(s.landed > 1 ? pair(s.deviation(0), s.deviation(1), "{:.1f}, {:.1f}") : Html{});
   row.push_back(s.hits.of > 0 ? html("{:.2f}", s.release_speed) : Html{});
   return row;
 }
@@ -73,8 +70,7 @@ Html causeTable(const CampaignResults& results, const std::string& strategy) {
                     html("{:+.2f} to {:+.2f}", 100 * cause.gain.low, 100 * cause.gain.high),
                     percent(cause.off.hits), percent(alone.hits), interval(alone.hits),
                     pair(alone.bias.x(), alone.bias.y(), "{:+.1f}, {:+.1f}"),
-                    pair(std::sqrt(alone.covariance(0, 0)), std::sqrt(alone.covariance(1, 1)),
-                         "{:.1f}, {:.1f}")});
+                    pair(alone.deviation(0), alone.deviation(1), "{:.1f}, {:.1f}")});
   }
   if (rows.empty())
     return {};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -15,10 +14,6 @@ namespace {
 
 constexpr double kMilli = 1e3;
 
-double deviation(const CaseSummary& s, int axis) {
-  return kMilli * std::sqrt(s.covariance(axis, axis));
-}
-
 std::string casesCsv(const CampaignResults& results) {
   std::string csv =
       "strategy,variant,throws,hits,hit_percent,hit_low,hit_high,clean_percent,"
@@ -30,8 +25,8 @@ std::string casesCsv(const CampaignResults& results) {
     csv += fmt::format("{},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f}\n", one.strategy,
                        variantOf(one), s.hits.of, s.hits.count, percentFields(s.hits),
                        percentFields(s.cleans), percentFields(s.settled_hits), s.landed,
-                       kMilli * s.bias.x(), kMilli * s.bias.y(), deviation(s, 0), deviation(s, 1),
-                       s.release_speed);
+                       kMilli * s.bias.x(), kMilli * s.bias.y(), kMilli * s.deviation(0),
+                       kMilli * s.deviation(1), s.release_speed);
   }
   return csv;
 }
@@ -52,7 +47,7 @@ std::string caseTable(const CampaignResults& results) {
         results.campaign.cases[i].name, s.hits.of, 100 * s.hits.value(), 100 * s.hits.low(),
         100 * s.hits.high(), 100 * s.cleans.value(),
         s.settled_hits.of > 0 ? fmt::format("{:.2f}", 100 * s.settled_hits.value()) : "",
-        kMilli * s.bias.x(), kMilli * s.bias.y(), deviation(s, 0), deviation(s, 1));
+        kMilli * s.bias.x(), kMilli * s.bias.y(), kMilli * s.deviation(0), kMilli * s.deviation(1));
   }
   return table;
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "launch/campaign/campaign_drawing.h"
 #include "launch/campaign/causes.h"
@@ -14,14 +13,10 @@ namespace {
 
 constexpr double kMilli = 1e3;
 
-double deviation(const CaseSummary& s, int axis) {
-  return kMilli * std::sqrt(s.covariance(axis, axis));
-}
-
 /// "mean right,mean up,sd right,sd up" [mm].
 std::string landingFields(const CaseSummary& s) {
   return fmt::format("{:.3f},{:.3f},{:.3f},{:.3f}", kMilli * s.bias.x(), kMilli * s.bias.y(),
-                     deviation(s, 0), deviation(s, 1));
+                     kMilli * s.deviation(0), kMilli * s.deviation(1));
 }
 
 std::string tableOf(const Causes& causes) {
@@ -84,8 +79,8 @@ std::string dataOf(const Causes& causes) {
   for (std::size_t n = 0; n < causes.causes.size(); ++n) {
     const Cause& c = causes.causes[n];
     data += fmt::format("{} {} {} {} {} {} {}\n", -static_cast<int>(n), 100 * c.gain.value,
-                        100 * c.gain.low, 100 * c.gain.high, deviation(c.alone, 0),
-                        deviation(c.alone, 1), kMilli * c.alone.bias.norm());
+                        100 * c.gain.low, 100 * c.gain.high, kMilli * c.alone.deviation(0),
+                        kMilli * c.alone.deviation(1), kMilli * c.alone.bias.norm());
   }
   return dataBlock("c", data);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "launch/campaign/record.h"
@@ -32,6 +33,9 @@ struct CaseSummary {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< [m^2], of the landings about it
   /// [m/s], mean; a ball that never left the hand counts as 0.
   double release_speed = 0;
+
+  /// [m], standard deviation of the landings. @param axis 0: right, 1: up
+  double deviation(int axis) const { return std::sqrt(covariance(axis, axis)); }
 };
 
 /// @param record of a campaign; the results of case number `case_index` count.

@@ -115,9 +115,9 @@ std::string curveData(const CampaignResults& results,
     const CaseSummary& s = results.summaries[point.case_index];
     data += fmt::format("{:.6g} {:.4f} {:.4f} {:.4f}", range.aside(point.value, n, curves),
                         100 * s.hits.value(), 100 * s.hits.low(), 100 * s.hits.high());
-    data += s.landed > 1 ? fmt::format(" {:.3f} {:.3f}\n", kMilli * std::sqrt(s.covariance(0, 0)),
-                                       kMilli * std::sqrt(s.covariance(1, 1)))
-                         : " NaN NaN\n";
+    data += s.landed > 1
+                ? fmt::format(" {:.3f} {:.3f}\n", kMilli * s.deviation(0), kMilli * s.deviation(1))
+                : " NaN NaN\n";
   }
   return data.empty() ? "NaN NaN NaN NaN NaN NaN\n" : data;
 }
@@ -198,8 +198,8 @@ std::string tableOf(const CampaignResults& results, const std::vector<Axis>& axe
         const CaseSummary& s = results.summaries[point.case_index];
         csv += fmt::format("{},{:g},{},{},{},{},", axis.quantity, point.value, curve.strategy,
                            s.hits.of, percentFields(s.hits), percentFields(s.cleans));
-        csv += s.landed > 1 ? fmt::format("{:.3f},{:.3f}\n", kMilli * std::sqrt(s.covariance(0, 0)),
-                                          kMilli * std::sqrt(s.covariance(1, 1)))
+        csv += s.landed > 1 ? fmt::format("{:.3f},{:.3f}\n", kMilli * s.deviation(0),
+                                          kMilli * s.deviation(1))
                             : ",\n";
       }
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -28,7 +27,7 @@ nlohmann::json toJson(const CaseSummary& s) {
           {"clean_wilson", {s.cleans.low(), s.cleans.high()}},
           {"landed", s.landed},
           {"bias_mm", {kMilli * s.bias.x(), kMilli * s.bias.y()}},
-          {"sigma_mm", {kMilli * std::sqrt(c(0, 0)), kMilli * std::sqrt(c(1, 1))}},
+          {"sigma_mm", {kMilli * s.deviation(0), kMilli * s.deviation(1)}},
           {"covariance_mm2", {to_mm2 * c(0, 0), to_mm2 * c(0, 1), to_mm2 * c(1, 1)}},
           {"release_speed_mps", s.release_speed},
           {"by_throw", by_throw},
@@ -81,8 +80,7 @@ std::string campaignTable(const Campaign& campaign, const std::map<Unit, UnitRes
         "{:.1f})\n",
         campaign.cases[i].name, width, s.hits.of, 100 * s.hits.value(), 100 * s.hits.low(),
         100 * s.hits.high(), 100 * s.cleans.value(), 100 * s.settled_hits.value(),
-        kMilli * s.bias.x(), kMilli * s.bias.y(), kMilli * std::sqrt(s.covariance(0, 0)),
-        kMilli * std::sqrt(s.covariance(1, 1)));
+        kMilli * s.bias.x(), kMilli * s.bias.y(), kMilli * s.deviation(0), kMilli * s.deviation(1));
   }
   return table;
 }

@@ -16,8 +16,6 @@ namespace {
 /// LCM's own thread receives; to be woken for each message would cost more than the message.
 constexpr int64_t kDrainUs = 20'000;
 constexpr double kMicroseconds = 1e6;
-/// What LCM says to itself when a process starts.
-constexpr const char* kSelfTest = "LCM_SELF_TEST";
 
 /// Waits for keys or the end. @return true if keys wait.
 bool waitFor(int64_t us, const messaging::StopSignals& signals, bool keys) {
@@ -36,7 +34,7 @@ void spy(const SpyOptions& options, const messaging::TypeLibrary& types, SpyOutp
   Traffic traffic(types);
   endpoint.subscribeRaw(options.channel, [&traffic](const std::string& channel, const void* data,
                                                     std::size_t size, int64_t utime) {
-    if (channel != kSelfTest)
+    if (channel != messaging::kSelfTestChannel)
       traffic.take(channel, data, size, utime);
   });
   const auto interval_us =

@@ -92,12 +92,11 @@ void Timeline::hear(const release_t& release) {
 }
 
 void Timeline::addPathToFirstFit(const ViewedThrow& viewed, const ball_track_t& first) {
-  // Seen backwards in time a flight is one with drag of the other sign.
-  const model::BallState backwards{Eigen::Map<const Eigen::Vector3d>(first.p_WBall),
-                                   -Eigen::Map<const Eigen::Vector3d>(first.v_WBall)};
+  const model::BallState ball{Eigen::Map<const Eigen::Vector3d>(first.p_WBall),
+                              Eigen::Map<const Eigen::Vector3d>(first.v_WBall)};
   for (int64_t utime = viewed.departed->utime; utime < first.utime; utime += kPathStepUs) {
-    const auto p = model::fly(backwards, 1e-6 * static_cast<double>(first.utime - utime),
-                              -first.drag, experiment_.arm.gravity)
+    const auto p = model::fly(ball, 1e-6 * static_cast<double>(utime - first.utime), first.drag,
+                              experiment_.arm.gravity)
                        .p_WBall;
     track_.push({timeOf(viewed, utime), viewed.number, p, false});
   }

@@ -13,14 +13,14 @@ TEST(Allocation, NoneInALoop) {
   ASSERT_TRUE(controller.offerPlan(swingPlan()));
   ASSERT_TRUE(controller.startThrow({1, 1, 600'000}));
   const auto run = [&](int from, int to) {
-    const long before = kit::allocations();
+    const long before = test_kit::allocations();
     for (int i = from; i < to; ++i)
       robot.tick(controller.answer({1000 * i, 1, i, robot.q, robot.qd})->tau);
-    return kit::allocations() - before;
+    return test_kit::allocations() - before;
   };
   EXPECT_EQ(run(0, 1000), 0);
   controller.stop("ESTOP: test");
-  EXPECT_GT(kit::allocations(), 0) << "the counter counts";
+  EXPECT_GT(test_kit::allocations(), 0) << "the counter counts";
   run(1000, 1001);
   EXPECT_EQ(run(1001, 1500), 0);
 }

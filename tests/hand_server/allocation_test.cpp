@@ -20,7 +20,7 @@ void throwWithout(double window) {
   const model::Arm arm = testArm();
   const model::BallParameters& ball = experiment().ball;
   const Eigen::Isometry3d X_TH = testHand().X_TH(plan.q_wrist[0], plan.q_wrist[1]);
-  const long before = kit::allocations();
+  const long before = test_kit::allocations();
   ASSERT_GT(before, 0) << "the counter counts";
   Phase last = Phase::kOpen;
   for (int i = 0; i < kStart + 700; ++i) {
@@ -35,7 +35,7 @@ void throwWithout(double window) {
     last = answer->phase;
     hand.tick(*answer);
   }
-  EXPECT_EQ(kit::allocations() - before, 0);
+  EXPECT_EQ(test_kit::allocations() - before, 0);
   EXPECT_EQ(last, Phase::kClear);
 }
 

@@ -20,10 +20,10 @@ void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
 
-namespace fastball::kit {
+namespace fastball::test_kit {
 
 long allocations() {
   return g_allocations;
 }
 
-}  // namespace fastball::kit
+}  // namespace fastball::test_kit

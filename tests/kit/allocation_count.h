@@ -1,8 +1,8 @@
 #pragma once
 
-namespace fastball::kit {
+namespace fastball::test_kit {
 
 /// How often this program has asked for memory: a test that has allocation_count.cpp among its sources counts every operator new.
 long allocations();
 
-}  // namespace fastball::kit
+}  // namespace fastball::test_kit

@@ -17,7 +17,7 @@ TEST(Allocation, NoneBySigningAndChecking) {
   std::array<char, kControlBytes> message{};
   constexpr std::size_t kSize = 89;
   int accepted = 0, repeated = 0, wrong = 0;
-  const long before = kit::allocations();
+  const long before = test_kit::allocations();
   for (int i = 0; i < 1000; ++i) {
     signer.sign("ARM_COMMAND", message.data(), kSize, i);
     const auto fault = [&] { return guard.check(message.data(), kSize + kTrailerBytes, i); };
@@ -26,12 +26,12 @@ TEST(Allocation, NoneBySigningAndChecking) {
     message[7] ^= 1;
     wrong += fault() == Fault::kWrongTag;
   }
-  EXPECT_EQ(kit::allocations() - before, 0);
+  EXPECT_EQ(test_kit::allocations() - before, 0);
   EXPECT_EQ(accepted, 1000);
   EXPECT_EQ(repeated, 1000);
   EXPECT_EQ(wrong, 1000);
   EXPECT_FALSE(guard.words().empty());
-  EXPECT_GT(kit::allocations(), before) << "the counter counts";
+  EXPECT_GT(test_kit::allocations(), before) << "the counter counts";
 }
 
 }  // namespace
