@@ -140,23 +140,14 @@ void FlightFinder::pair(const std::vector<Thing>& a,
   }
 }
 
-void FlightFinder::placeBySize(const std::vector<Thing>& things,
-                               const model::Camera& camera,
-                               std::vector<SpatialPoint>& points) const {
+void FlightFinder::placeAlone(const std::vector<Thing>& things,
+                              const model::Camera& camera,
+                              std::vector<SpatialPoint>& points) const {
   for (const Thing& thing : things) {
-    const Eigen::Vector2d n = camera.undistort(thing.fit.centre);
-    // Begin with the pinhole's depth, then scale it by what the outline there is too large.
-    const auto placed = [&](double depth) -> Eigen::Vector3d {
-      return camera.R_CW.transpose() * (depth * Eigen::Vector3d(n.x(), n.y(), 1) - camera.p_CW);
-    };
-    double depth = std::sqrt(camera.fx * camera.fy) * ball_radius_ / thing.fit.radius;
-    if (!(depth > 3 * ball_radius_))
+    const auto place = placeBySize(camera, thing.fit.centre, thing.fit.radius, ball_radius_);
+    if (!place)
       continue;
-    depth *= sphereOutline(camera, placed(depth), ball_radius_).meanRadius() / thing.fit.radius;
-    SpatialPoint point{placed(depth), {thing.seen}};
-    point.doubtful_W = (camera.R_CW.transpose() * Eigen::Vector3d(n.x(), n.y(), 1)).normalized();
-    point.doubt = kDepthTolerance * depth;
-    points.push_back(point);
+    points.push_back({place->p_W, {thing.seen}, place->along_W, kDepthTolerance * place->depth});
   }
 }
 
@@ -206,7 +197,7 @@ std::optional<FlightFinder::Found> FlightFinder::add(const Sightings& sightings,
   for (const int i : fresh) {
     const int64_t utime = looks_[static_cast<std::size_t>(i)].back().utime;
     if (cameras.size() == 1)
-      placeBySize(thingsAt(i, utime), cameras.front(), pointsAt(utime));
+      placeAlone(thingsAt(i, utime), cameras.front(), pointsAt(utime));
     for (int j = 0; j < static_cast<int>(cameras.size()); ++j) {
       const std::deque<Look>& other = looks_[static_cast<std::size_t>(j)];
       if (j == i || other.empty())

@@ -84,9 +84,9 @@ class FlightFinder {
             const std::vector<Thing>& b,
             const std::vector<model::Camera>& cameras,
             std::vector<SpatialPoint>& points) const;
-  void placeBySize(const std::vector<Thing>& things,
-                   const model::Camera& camera,
-                   std::vector<SpatialPoint>& points) const;
+  void placeAlone(const std::vector<Thing>& things,
+                  const model::Camera& camera,
+                  std::vector<SpatialPoint>& points) const;
   bool matches(const model::Camera& camera, const Thing& thing, const Eigen::Vector3d& p_W) const;
   std::vector<SpatialPoint>& pointsAt(int64_t utime);
 

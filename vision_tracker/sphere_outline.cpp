@@ -70,4 +70,22 @@ Outline sphereOutline(const model::Camera& camera, const Eigen::Vector3d& p_W, d
   return outline;
 }
 
+std::optional<SizedPlace> placeBySize(const model::Camera& camera,
+                                      const Eigen::Vector2d& centre,
+                                      double mean_radius,
+                                      double radius) {
+  const Eigen::Vector2d n = camera.undistort(centre);
+  const auto placed = [&](double depth) -> Eigen::Vector3d {
+    return camera.R_CW.transpose() * (depth * Eigen::Vector3d(n.x(), n.y(), 1) - camera.p_CW);
+  };
+  // Begin with the pinhole's depth, then scale it by what the outline there is too large.
+  double depth = std::sqrt(camera.fx * camera.fy) * radius / mean_radius;
+  if (!(depth > 3 * radius))
+    return std::nullopt;
+  depth *= sphereOutline(camera, placed(depth), radius).meanRadius() / mean_radius;
+  return SizedPlace{placed(depth),
+                    (camera.R_CW.transpose() * Eigen::Vector3d(n.x(), n.y(), 1)).normalized(),
+                    depth};
+}
+
 }  // namespace fastball::vision_tracker

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "vision_tracker/free_flight.h"
+#include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
 namespace {
@@ -115,12 +116,6 @@ VideoTrack trackVideo(const std::string& path,
   return track;
 }
 
-Eigen::Vector3d placeBySize(const model::Camera& camera, const BallFit& fit, double ball_radius) {
-  const Eigen::Vector2d n = camera.undistort(fit.centre);
-  const double depth = std::sqrt(camera.fx * camera.fy) * ball_radius / fit.radius;
-  return camera.R_CW.transpose() * (depth * Eigen::Vector3d(n.x(), n.y(), 1) - camera.p_CW);
-}
-
 std::string tableOf(const VideoTrack& track,
                     const std::optional<model::Camera>& camera,
                     double ball_radius) {
@@ -131,8 +126,10 @@ std::string tableOf(const VideoTrack& track,
                         s.fit.centre.x(), s.fit.centre.y(), s.fit.radius, s.fit.cov(0, 0),
                         s.fit.cov(0, 1), s.fit.cov(1, 1));
     if (camera) {
-      const Eigen::Vector3d p_W = placeBySize(*camera, s.fit, ball_radius);
-      text += fmt::format(",{:.5f},{:.5f},{:.5f}", p_W.x(), p_W.y(), p_W.z());
+      const auto place = placeBySize(*camera, s.fit.centre, s.fit.radius, ball_radius);
+      text += place ? fmt::format(",{:.5f},{:.5f},{:.5f}", place->p_W.x(), place->p_W.y(),
+                                  place->p_W.z())
+                    : ",,,";
     }
     text += '\n';
   }
@@ -143,7 +140,6 @@ std::optional<FlightEstimate> flightOf(const std::vector<VideoTrack>& tracks,
                                        const std::vector<model::Camera>& cameras,
                                        const FlightPrior& prior) {
   std::vector<Observation> observations;
-  std::vector<Eigen::Vector3d> places;
   for (std::size_t c = 0; c < tracks.size(); ++c)
     for (const PixelSighting& s : tracks[c].sightings)
       observations.push_back(
@@ -155,12 +151,17 @@ std::optional<FlightEstimate> flightOf(const std::vector<VideoTrack>& tracks,
   Eigen::Index row = 0;
   for (std::size_t c = 0; c < tracks.size(); ++c) {
     for (const PixelSighting& s : tracks[c].sightings) {
+      const auto place = placeBySize(cameras[c], s.fit.centre, s.fit.radius, prior.ball_radius);
+      if (!place)
+        continue;
       const Eigen::Vector3d fall(0, 0, prior.gravity * s.time * s.time / 2);
       design.row(row) << 1, s.time;
-      points.row(row++) = placeBySize(cameras[c], s.fit, prior.ball_radius) + fall;
+      points.row(row++) = place->p_W + fall;
     }
   }
-  const Eigen::MatrixXd line = design.colPivHouseholderQr().solve(points);
+  if (row == 0)
+    return std::nullopt;
+  const Eigen::MatrixXd line = design.topRows(row).colPivHouseholderQr().solve(points.topRows(row));
   std::stable_sort(observations.begin(), observations.end(),
                    [](const Observation& a, const Observation& b) { return a.utime < b.utime; });
   return fitFreeFlight(observations, cameras, prior,

@@ -36,13 +36,12 @@ VideoTrack trackVideo(const std::string& path,
                       const VideoBall& ball);
 
 /// A table (CSV): frame, time [s], u, v, radius [px], cov_uu, cov_uv, cov_vv [px^2]; for a
-/// calibrated camera also x, y, z [m], the place in the world that direction and apparent size say.
+/// calibrated camera also x, y, z [m], the place in the world that direction and apparent size say
+/// (placeBySize()), empty where they say none.
+/// @param ball_radius [m]
 std::string tableOf(const VideoTrack& track,
                     const std::optional<model::Camera>& camera,
                     double ball_radius);
-
-/// Where a ball of this radius [m] is in the world [m], by its direction and its size in the image.
-Eigen::Vector3d placeBySize(const model::Camera& camera, const BallFit& fit, double ball_radius);
 
 /// One flight fitted to the tracks of two to four cameras whose videos begin at the same time; its
 /// times count from there.

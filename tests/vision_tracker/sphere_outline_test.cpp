@@ -126,5 +126,22 @@ TEST(SphereOutline, JacobianMatchesFiniteDifferences) {
   }
 }
 
+TEST(PlaceBySize, IsThatOfTheSphereWhoseOutlineItIs) {
+  for (const double k1 : {0.0, -0.1}) {
+    const model::Camera camera = testCamera(k1);
+    for (const Eigen::Vector3d& p_W : places()) {
+      const Outline outline = sphereOutline(camera, p_W, kRadius);
+      const auto place = placeBySize(camera, outline.centre, outline.meanRadius(), kRadius);
+      ASSERT_TRUE(place);
+      EXPECT_LT((place->p_W - p_W).norm(), 2e-3) << p_W.transpose();
+      EXPECT_NEAR(place->depth, camera.toCamera(place->p_W).z(), 1e-12);
+      const Eigen::Vector3d ray_W = place->p_W + camera.R_CW.transpose() * camera.p_CW;
+      EXPECT_LT((place->along_W - ray_W.normalized()).norm(), 1e-12);
+    }
+  }
+  const model::Camera camera = testCamera(0);
+  EXPECT_FALSE(placeBySize(camera, {320, 240}, camera.fx / 2, kRadius)) << "two radii away";
+}
+
 }  // namespace
 }  // namespace fastball::vision_tracker

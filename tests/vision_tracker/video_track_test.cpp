@@ -86,8 +86,10 @@ TEST_F(Videos, ThrowIsTrackedByTwoCamerasAndItsLandingMeasured) {
       if ((s.fit.centre - truth).norm() > 0.5)
         continue;
       ++right;
-      const Eigen::Vector3d place = placeBySize(cameras[c], s.fit, experiment.ball.radius);
-      EXPECT_LT((place - ball.p_WBall).norm(), 0.6) << "a tenth of the distance";
+      const auto place =
+          placeBySize(cameras[c], s.fit.centre, s.fit.radius, experiment.ball.radius);
+      ASSERT_TRUE(place);
+      EXPECT_LT((place->p_W - ball.p_WBall).norm(), 0.6) << "a tenth of the distance";
     }
     EXPECT_GT(right, 80);
     EXPECT_EQ(tracks[c].picture.size(), cv::Size(640, 480));
