@@ -2,22 +2,22 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <unistd.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include "launch/clock_check.h"
 #include "launch/experiment_node.h"
 #include "launch/experiment_processes.h"
 #include "launch/key_check.h"
+#include "launch/loss_report.h"
 #include "launch/processes.h"
+#include "launch/rest_watch.h"
 #include "launch/silence_watch.h"
+#include "launch/stranger_check.h"
 #include "launch/verdicts.h"
 #include "messaging/heartbeat.h"
 #include "messaging/lcm_endpoint.h"
@@ -30,13 +30,8 @@ namespace {
 
 constexpr double kMicro = 1e6;
 constexpr int64_t kWatchIntervalUs = 20000;
-// For the last commands to reach the robot and the log; a robot that says no new state for so long is no longer waited for.
-constexpr int64_t kEstopUs = 100'000;
 // For the arm to come to rest.
 constexpr int64_t kRestUs = 2'000'000, kInterruptedRestUs = 300'000;
-constexpr double kRestSpeed = 0.02;  // [rad/s]
-// A busy machine may be that late with the next state; a simulator that waits for a dead process is silent for ever.
-constexpr int64_t kSilentUs = 500'000;
 constexpr double kInterruptedGrace = 0.8;  // [s], twice: an interrupted run is over within 2 s
 constexpr double kTruthTime = 5.0;  // [s], for the truth to arrive once the experiment is over
 constexpr double kHeartbeatPeriod = 1.1;  // [s]
@@ -62,6 +57,8 @@ class NetworkRun {
         experiment_(endpoint_, clock_, roster_, setup.settings),
         judge_(endpoint_),
         verdicts_(experiment_, judge_, setup.settings.target.radius, progress),
+        rest_(endpoint_, clock_),
+        losses_(endpoint_, roster_),
         heartbeat_(endpoint_,
                    clock_,
                    experiment_,
@@ -69,9 +66,6 @@ class NetworkRun {
                    endpoint_.keyId()) {
     if (setup.options.silence_limit > 0)
       watch_.emplace(endpoint_, clock_, experiment_.name(), setup.options.silence_limit);
-    endpoint_.subscribe<logger_status_t>(messaging::kLoggerStatus,
-                                         [this](const auto& m) { logger_status_ = m; });
-    endpoint_.subscribe<arm_state_t>(messaging::kArmState, [this](const auto& m) { arm_ = m; });
   }
 
   void listenForOthers();
@@ -93,12 +87,11 @@ class NetworkRun {
   void pump(bool act);
   void pumpFor(double seconds, bool act);
   void awaitProcesses(const std::vector<std::string>& names);
-  /// Waits after an ESTOP until the arm rests, as long as its states come.
+  /// Waits after an ESTOP until the arm rests.
   void awaitRest();
   void watch();
   void watchPeers();
   void checkClocks();
-  bool isOurs(const heartbeat_t& heartbeat) const;
   void refuseStrangers() const;
   void refuseOtherKeys() const;
 
@@ -116,13 +109,13 @@ class NetworkRun {
   ExperimentNode experiment_;
   Judge judge_;
   Verdicts verdicts_;
+  RestWatch rest_;
+  LossReport losses_;
   messaging::Heartbeat heartbeat_;
   Processes processes_;
-  logger_status_t logger_status_{};
-  arm_state_t arm_{};  ///< the newest
+  const StrangerCheck strangers_{roster_, processes_};
   int64_t next_watch_us_ = INT64_MIN;
   bool conducting_ = false;
-  const std::string host_ = messaging::hostName();
 };
 
 void NetworkRun::pump(bool act) {
@@ -180,27 +173,13 @@ std::string NetworkRun::silence() const {
   return silent.empty() ? "" : "; " + silent;
 }
 
-bool NetworkRun::isOurs(const heartbeat_t& heartbeat) const {
-  if (heartbeat.host != host_)
-    return false;
-  return heartbeat.pid == getpid() || heartbeat.pid == processes_.pid(heartbeat.name);
-}
-
 void NetworkRun::refuseStrangers() const {
-  // On a system only one experiment at a time is a stranger to another.
+  // On a system only one experiment at a time is a stranger to another; and once this run is on, a
+  // second `fastball run` that is about to refuse is no harm.
   const auto names =
       setup_.on_system ? std::vector<std::string>{experiment_.name()} : processes_.names();
-  for (const heartbeat_t& heartbeat : roster_.everyone()) {
-    // Once this run is on, a second `fastball run` that is about to refuse is no harm.
-    if (!names.empty() && std::find(names.begin(), names.end(), heartbeat.name) == names.end())
-      continue;
-    if (isOurs(heartbeat))
-      continue;
-    throw std::runtime_error(
-        fmt::format("another run is on {}: its {} (process {} on {}) was heard; end it, or give "
-                    "this run a port of its own with --lcm-url",
-                    setup_.options.lcm_url, heartbeat.name, heartbeat.pid, heartbeat.host));
-  }
+  if (const std::string fault = strangers_.fault(names, setup_.options.lcm_url); !fault.empty())
+    throw std::runtime_error(fault);
 }
 
 void NetworkRun::refuseOtherKeys() const {
@@ -262,21 +241,7 @@ void NetworkRun::awaitProcesses(const std::vector<std::string>& names) {
 }
 
 void NetworkRun::awaitRest() {
-  const int64_t start_us = clock_.monotonicUs();
-  int64_t heard_us = start_us, moved_us = start_us;
-  int64_t tick = arm_.tick;
-  const int64_t longest_us = signals_.received() ? kInterruptedRestUs : kRestUs;
-  for (int64_t now_us = start_us; now_us < start_us + longest_us; now_us = clock_.monotonicUs()) {
-    pollfd readable{endpoint_.fileDescriptor(), POLLIN, 0};
-    poll(&readable, 1, 10);
-    endpoint_.drain();
-    if (std::exchange(tick, arm_.tick) != arm_.tick)
-      heard_us = now_us;
-    if (Eigen::Map<const Eigen::Vector4d>(arm_.qd).norm() > kRestSpeed)
-      moved_us = now_us;
-    if (now_us >= moved_us + kEstopUs || now_us >= heard_us + kSilentUs)
-      return;
-  }
+  rest_.await(signals_.received() ? kInterruptedRestUs : kRestUs);
 }
 
 void NetworkRun::conduct() {
@@ -319,17 +284,8 @@ std::string NetworkRun::stopProcesses() {
     progress_.line(sentence);
   }
   endpoint_.drain();
-  for (const std::string& name : names) {
-    const heartbeat_t* last = roster_.newest(name);
-    if (last != nullptr && last->lost + last->invalid > 0) {
-      progress_.line(
-          fmt::format("{} missed {} messages and refused {}", name, last->lost, last->invalid));
-    }
-  }
-  if (logger_status_.lost > 0 || !logger_status_.message.empty()) {
-    progress_.line(fmt::format("the log is not whole: {} messages lost {}", logger_status_.lost,
-                               logger_status_.message));
-  }
+  for (const std::string& sentence : losses_.sentences(names))
+    progress_.line(sentence);
   return fault;
 }
 
