@@ -1,17 +1,15 @@
 #include "vision_tracker/node.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "config/experiment.h"
 #include "messaging/image_channel.h"
 #include "messaging/validation.h"
-#include "vision_tracker/camera_message.h"
+#include "vision_tracker/calibrations.h"
 #include "vision_tracker/config.h"
 #include "vision_tracker/image_order.h"
 #include "vision_tracker/result_messages.h"
@@ -40,7 +38,7 @@ class TrackerNode : public messaging::Node {
         observations_(endpoint, messaging::kBallObservation),
         tracks_(endpoint, messaging::kBallTrack),
         landings_(endpoint, messaging::kLanding),
-        infos_(names_.size()) {
+        calibrations_(names_) {
     endpoint.subscribe<camera_info_t>(messaging::kCameraInfo,
                                       [this](const camera_info_t& m) { takeInfo(m); });
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
@@ -68,12 +66,13 @@ class TrackerNode : public messaging::Node {
   }
 
   messaging::NodeState state() const override {
-    return {word(), notice_.empty() ? stranger_ : notice_, request_id_};
+    return {word(), notice_.empty() ? calibrations_.stranger() : notice_, request_id_};
   }
 
   void shutDown() override {
-    if (strangers_ > 0)
-      spdlog::info("{}; {} such messages came", stranger_, strangers_);
+    if (calibrations_.strangers() > 0)
+      spdlog::info("{}; {} such messages came", calibrations_.stranger(),
+                   calibrations_.strangers());
   }
 
  private:
@@ -87,30 +86,15 @@ class TrackerNode : public messaging::Node {
     return tracker_.state() == ThrowTracker::State::kTracking ? "tracking" : "waiting";
   }
 
-  bool calibrated() const {
-    return std::all_of(infos_.begin(), infos_.end(), [](const auto& info) { return !!info; });
-  }
-
   void takeInfo(const camera_info_t& m) {
-    const auto name = std::find(names_.begin(), names_.end(), m.channel);
-    if (name == names_.end()) {
-      takeStranger(m.channel);
+    std::string fault;
+    const Calibrations::News news = calibrations_.take(m, fault);
+    if (notice_.empty())
+      notice_ = fault;
+    if (news == Calibrations::News::kNone)
       return;
-    }
-    const std::string fault = cameraFault(m);
-    if (!fault.empty()) {
-      if (notice_.empty())
-        notice_ = fmt::format("CAMERA_INFO of {} is no calibration: {}", m.channel, fault);
-      return;
-    }
-    const CameraSetup setup = cameraSetup(m);
-    std::optional<CameraSetup>& known = infos_[static_cast<std::size_t>(name - names_.begin())];
-    if (known && sameCamera(*known, setup))
-      return;
-    const bool changed = known.has_value();
-    known = setup;
     // What came by then was seen with another camera, or by it at another place.
-    if (changed && images_ > 0 && !over())
+    if (news == Calibrations::News::kChanged && images_ > 0 && !over())
       abandon(
           fmt::format("not measured: the calibration of {} changed during the throw", m.channel));
     if (images_ == 0)
@@ -119,19 +103,10 @@ class TrackerNode : public messaging::Node {
 
   /// The calibrations hold for a whole throw.
   void setCameras() {
-    if (!calibrated())
+    if (!calibrations_.complete())
       return;
-    for (std::size_t camera = 0; camera < infos_.size(); ++camera)
-      tracker_.setCamera(static_cast<int>(camera), *infos_[camera]);
-  }
-
-  void takeStranger(const std::string& channel) {
-    ++strangers_;
-    if (!stranger_.empty())
-      return;
-    stranger_ = messaging::shortened(fmt::format(
-        "CAMERA_INFO of {} is of none of tracker.cameras, {}", channel, fmt::join(names_, ", ")));
-    spdlog::warn("{}", stranger_);
+    for (std::size_t camera = 0; camera < names_.size(); ++camera)
+      tracker_.setCamera(static_cast<int>(camera), calibrations_.of(camera));
   }
 
   void takeRequest(const plan_request_t& m) {
@@ -170,10 +145,10 @@ class TrackerNode : public messaging::Node {
 
   void takeImage(std::size_t camera, const image_t& m) {
     last_image_us_ = clock_.monotonicUs();
-    if (request_id_ == 0 || !calibrated()) {
+    if (request_id_ == 0 || !calibrations_.complete()) {
       complain(camera, m.seq,
                request_id_ == 0 ? "came before a PLAN_REQUEST"
-                                : "came before CAMERA_INFO of " + uncalibrated());
+                                : "came before CAMERA_INFO of " + calibrations_.missing());
       return;
     }
     if (m.utime > kLatestUs) {
@@ -193,14 +168,6 @@ class TrackerNode : public messaging::Node {
         complain(camera, m.seq, fmt::format("of {} us came after a later one", m.utime));
         break;
     }
-  }
-
-  std::string uncalibrated() const {
-    std::vector<std::string> missing;
-    for (std::size_t camera = 0; camera < names_.size(); ++camera)
-      if (!infos_[camera])
-        missing.push_back(names_[camera]);
-    return fmt::format("{}", fmt::join(missing, " and "));
   }
 
   /// Images whose message did not decode or broke its rule, ever.
@@ -234,7 +201,7 @@ class TrackerNode : public messaging::Node {
     const auto index = static_cast<std::size_t>(image.camera);
     Sighting sighting;
     if (!over()) {
-      const model::Camera& camera = infos_[index]->camera;
+      const model::Camera& camera = calibrations_.of(index).camera;
       const std::string fault = decode(image, {camera.width, camera.height}, decoded_);
       if (fault.empty())
         sighting = tracker_.add(image.camera, image.utime, decoded_);
@@ -287,10 +254,7 @@ class TrackerNode : public messaging::Node {
   LandingReport checked(const LandingReport& report) const {
     if (!report.measured)
       return report;
-    std::vector<model::Camera> cameras;
-    for (const auto& info : infos_)
-      cameras.push_back(info->camera);
-    const auto excess = sizes_.excess(report.landing, cameras, prior_);
+    const auto excess = sizes_.excess(report.landing, calibrations_.cameras(), prior_);
     if (!excess || std::abs(*excess) < SizeCheck::kTolerance)
       return report;
     LandingReport refused;
@@ -323,7 +287,7 @@ class TrackerNode : public messaging::Node {
   messaging::Publisher<ball_track_t> tracks_;
   messaging::Publisher<landing_t> landings_;
 
-  std::vector<std::optional<CameraSetup>> infos_;  ///< newest of each camera
+  Calibrations calibrations_;
   cv::Mat decoded_;
   int64_t request_id_ = 0;
   bool abandoned_ = false;     ///< the throw
@@ -333,8 +297,6 @@ class TrackerNode : public messaging::Node {
   int64_t first_utime_ = 0;    ///< of the throw's first image
   int64_t last_image_us_ = 0;  ///< monotonic
   std::string notice_;
-  int64_t strangers_ = 0;  ///< CAMERA_INFO of other cameras
-  std::string stranger_;   ///< of the first of them
 };
 
 }  // namespace
