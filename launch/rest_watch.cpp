@@ -10,7 +10,8 @@ namespace {
 
 // For the last commands to reach the robot and the log.
 constexpr int64_t kEstopUs = 100'000;
-// A busy machine may be that late with the next state; a simulator that waits for a dead process is silent for ever.
+// A busy machine may be that late with the next state; a simulator that waits for a dead process is
+// silent for ever.
 constexpr int64_t kSilentUs = 500'000;
 constexpr double kRestSpeed = 0.02;  // [rad/s]
 

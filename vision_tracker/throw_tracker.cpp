@@ -7,34 +7,23 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
-#include "vision_tracker/ring_landing.h"
-#include "vision_tracker/ring_measurement.h"
 #include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
-constexpr int kImagesToLearn = 4;  // of each camera, before foreground means anything
 constexpr double kClear = 1.2;  // ball radii before the target plane; nearer it may touch the ring
 constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the limb
 constexpr int kSureTrack = 40;           // observations that no arm imitates
 constexpr int kLeastForLanding = 16;     // observations
 constexpr int kMostMisses = 15;          // times
-constexpr int kWayMargin = 40;           // [px], around the predicted way to the plane
 constexpr std::size_t kWayInterval = 8;  // observations, between two looks at it
 
 }  // namespace
 
-bool sameCamera(const CameraSetup& a, const CameraSetup& b) {
-  return a.rate == b.rate && a.exposure == b.exposure && a.camera.width == b.camera.width &&
-         a.camera.height == b.camera.height && a.camera.fx == b.camera.fx &&
-         a.camera.fy == b.camera.fy && a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy &&
-         a.camera.distortion == b.camera.distortion && a.camera.R_CW == b.camera.R_CW &&
-         a.camera.p_CW == b.camera.p_CW;
-}
-
 ThrowTracker::ThrowTracker(const TrackerOptions& options)
     : options_(options),
+      target_(options.prior, options.ring, options.detector.blur),
       finder_(options.prior.ball_radius, options.prior.gravity, options.prior.clock_sigma) {
   cv::setNumThreads(0);  // the images are small and the other processes need the cores
 }
@@ -43,9 +32,9 @@ void ThrowTracker::setCamera(int index, const CameraSetup& setup) {
   const auto i = static_cast<std::size_t>(index);
   if (i > eyes_.size())
     throw std::invalid_argument("cameras must be set one after another from 0");
-  if (i < eyes_.size() && sameCamera(eyes_[i].setup, setup))
+  if (i < eyes_.size() && sameCamera(eyes_[i].setup(), setup))
     return;
-  const Eye eye{setup, BallDetector(setup.camera, setup.exposure, options_.detector), {}};
+  const Eye eye(setup, options_.detector);
   if (i == eyes_.size()) {
     eyes_.push_back(eye);
     cameras_.push_back(setup.camera);
@@ -53,21 +42,15 @@ void ThrowTracker::setCamera(int index, const CameraSetup& setup) {
     eyes_[i] = eye;
     cameras_[i] = setup.camera;
   }
-  begin(given_);
+  begin(target_.given());
 }
 
 void ThrowTracker::begin(const model::Target& target) {
-  given_ = target;
-  target_ = target;
-  ring_.reset();
-  ring_note_.clear();
+  target_.give(target);
   state_ = State::kWaiting;
   finder_.reset();
-  for (Eye& eye : eyes_) {
-    eye.background.reset();
-    eye.way = {};
-    eye.followed = 0;
-  }
+  for (Eye& eye : eyes_)
+    eye.reset();
   moment_.clear();
   moment_utime_ = 0;
   seen_ = 0;
@@ -96,22 +79,18 @@ void ThrowTracker::takeFlight(const FreeFlight& followed) {
   followed_ = followed;
   latest_utime_ = observations_.back().utime;
   latest_ = followed.flight.at(latest_utime_, options_.prior.gravity);
-  predicted_ = landingOn(followed.flight);
+  predicted_ = target_.landing(followed.flight);
 }
 
 void ThrowTracker::expectWay() {
   constexpr int kPieces = 8;
   const double left = predicted_ ? seconds(latest_utime_, predicted_->utime) : 0;
-  for (Eye& eye : eyes_) {
-    eye.way = {};
-    for (int k = 0; k <= kPieces && left > 0; ++k) {
-      const cv::Rect area = eye.detector.area(
-          followed_->flight.onward(latest_, left * k / kPieces, options_.prior.gravity).p_WBall);
-      if (!area.empty())
-        eye.way |=
-            area + cv::Size(2 * kWayMargin, 2 * kWayMargin) - cv::Point(kWayMargin, kWayMargin);
-    }
-  }
+  std::vector<Eigen::Vector3d> places_W;
+  for (int k = 0; k <= kPieces && left > 0; ++k)
+    places_W.push_back(
+        followed_->flight.onward(latest_, left * k / kPieces, options_.prior.gravity).p_WBall);
+  for (Eye& eye : eyes_)
+    eye.expectWay(places_W);
 }
 
 Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
@@ -131,15 +110,12 @@ Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
   Sighting sighting;
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
   cv::Rect leave;
-  if (eye.background.images() >= kImagesToLearn) {
+  if (eye.hasLearned()) {
     sighting = followed_ ? followIn(camera, utime, image) : searchIn(camera, utime, image);
     if (followed_)
-      leave = eye.detector.area(expectedAt(utime, camera).p_WBall);
+      leave = eye.detector().area(expectedAt(utime, camera).p_WBall);
   }
-  // A track that is sure needs the background on its way only, which was learned before: half as often will do.
-  const bool sure = followed_ && !eye.way.empty();
-  if (!sure || ++eye.followed % 2 == 0)
-    eye.background.learn(image, leave, sure ? eye.way : cv::Rect());
+  eye.learn(image, leave, followed_.has_value());
   seen_ |= 1U << camera;
   if (seen_ == (1U << eyes_.size()) - 1)
     closeMoment();
@@ -148,7 +124,7 @@ Sighting ThrowTracker::add(int camera, int64_t utime, const cv::Mat& image) {
 
 Sighting ThrowTracker::searchIn(int camera, int64_t utime, const cv::Mat& image) {
   const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  moment_.push_back({camera, utime, eye.detector.search(image, eye.background)});
+  moment_.push_back({camera, utime, eye.detector().search(image, eye.background())});
   const std::vector<BallFit>& fits = moment_.back().fits;
   return fits.empty() ? Sighting{} : Sighting{true, fits.front(), false, fits};
 }
@@ -159,7 +135,7 @@ Sighting ThrowTracker::followIn(int camera, int64_t utime, const cv::Mat& image)
   // A young track predicts badly, and so does one that has missed the ball.
   const double uncertainty = (followed_->flight.used < 24 ? 8.0 : 4.0) + 2.0 * misses_;
   const BallFit fit =
-      eye.detector.at(image, eye.background, expected.p_WBall, expected.v_WBall, uncertainty);
+      eye.detector().at(image, eye.background(), expected.p_WBall, expected.v_WBall, uncertainty);
   if (!fit.converged)
     return {false, {}, true, {}};
   // Near the plane the ring may touch the ball: seen, but no longer a part of the free flight.
@@ -201,7 +177,7 @@ void ThrowTracker::closeMoment() {
 }
 
 bool ThrowTracker::passed(int64_t utime) const {
-  const auto period = static_cast<int64_t>(1e6 / eyes_.front().setup.rate);
+  const auto period = static_cast<int64_t>(1e6 / eyes_.front().setup().rate);
   return predicted_ && utime >= predicted_->utime + period;
 }
 
@@ -216,13 +192,13 @@ void ThrowTracker::startTrack(const FlightFinder::Found& found) {
   const auto flight =
       fitFlight(observations_, 0, cameras_, options_.prior, found.state, found.utime);
   misses_ = 0;
-  if (!flight || !landingOf(*flight, given_, options_.prior.gravity)) {
+  if (!flight || !landingOf(*flight, target_.given(), options_.prior.gravity)) {
     observations_.clear();  // nothing that flies, or something that flies elsewhere
     return;
   }
   for (Eye& eye : eyes_)
-    eye.way = {};
-  if (options_.measure_target && !ring_)
+    eye.expectWay({});
+  if (options_.measure_target && !target_.wasSought())
     measureTarget();
   takeFlight({*flight});
   state_ = State::kTracking;
@@ -230,23 +206,10 @@ void ThrowTracker::startTrack(const FlightFinder::Found& found) {
 }
 
 void ThrowTracker::measureTarget() {
-  const Ring nominal{given_.p_WTarget, given_.n_WTarget, given_.radius + options_.ring.tube / 2};
   std::vector<const cv::Mat*> still;
   for (const Eye& eye : eyes_)
-    still.push_back(&eye.background.mean());
-  const RingMeasurement measured =
-      measureRing(still, cameras_, nominal, options_.ring, options_.detector.blur);
-  ring_ =
-      measured.estimate ? *measured.estimate : unseenRing(nominal, options_.ring, cameras_.size());
-  target_ = ring_->ring.target(given_.radius);
-  if (!measured.estimate)
-    ring_note_ = "the target was not measured but taken as given: " + measured.why_not;
-}
-
-std::optional<LandingEstimate> ThrowTracker::landingOn(const FlightEstimate& flight) const {
-  if (ring_)
-    return landingOf(flight, *ring_, given_.radius, options_.prior, options_.ring);
-  return landingOf(flight, target_, options_.prior.gravity);
+    still.push_back(&eye.background().mean());
+  target_.measure(still, cameras_);
 }
 
 void ThrowTracker::updateTrack() {
@@ -256,7 +219,7 @@ void ThrowTracker::updateTrack() {
   takeFlight(*followed);
   // The prediction of a young track may lead anywhere.
   if (followed_->flight.used >= kSureTrack &&
-      (observations_.size() % kWayInterval == 0 || eyes_.front().way.empty()))
+      (observations_.size() % kWayInterval == 0 || !eyes_.front().knowsWay()))
     expectWay();
   if (!predicted_)
     return;
@@ -301,7 +264,7 @@ void ThrowTracker::land() {
   observations_.erase(end, observations_.end());
   const auto flight = fitFreeFlight(observations_, cameras_, options_.prior,
                                     followed_->flight.start, followed_->flight.utime, nullptr);
-  const auto landing = flight ? landingOn(*flight) : std::nullopt;
+  const auto landing = flight ? target_.landing(*flight) : std::nullopt;
   if (!landing || flight->used < kLeastForLanding) {
     giveUp(fmt::format("only {} observations agree with a flight, {} are needed",
                        flight ? flight->used : 0, kLeastForLanding));
@@ -318,7 +281,7 @@ void ThrowTracker::land() {
   followed_ = FreeFlight{*flight};
   predicted_ = landing;
   landing_report_ =
-      LandingReport{true,          ring_note_,         *landing, flight->used, flight->residual_px,
+      LandingReport{true,          target_.note(),     *landing, flight->used, flight->residual_px,
                     flight->clock, flight->clock_sigma};
   state_ = State::kLanded;
 }

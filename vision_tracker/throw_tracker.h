@@ -8,12 +8,13 @@
 
 #include "model/camera.h"
 #include "model/target.h"
-#include "vision_tracker/background.h"
 #include "vision_tracker/ball_detector.h"
+#include "vision_tracker/eye.h"
 #include "vision_tracker/flight_finder.h"
 #include "vision_tracker/flight_landing.h"
 #include "vision_tracker/free_flight.h"
 #include "vision_tracker/ring_pose.h"
+#include "vision_tracker/tracked_target.h"
 
 namespace fastball::vision_tracker {
 
@@ -27,16 +28,6 @@ struct TrackerOptions {
   bool measure_target = false;
   RingPrior ring;  ///< for a measured one: how well the pose given is known
 };
-
-/// How a camera sees.
-struct CameraSetup {
-  model::Camera camera;
-  double rate = 0;      ///< [Hz]
-  double exposure = 0;  ///< [s]
-};
-
-/// Whether all numbers of two cameras are equal.
-bool sameCamera(const CameraSetup& a, const CameraSetup& b);
 
 /// What became of one image.
 struct Sighting {
@@ -94,15 +85,6 @@ class ThrowTracker {
   std::optional<LandingReport> takeLanding();
 
  private:
-  /// One camera and what it has learned.
-  struct Eye {
-    CameraSetup setup;
-    BallDetector detector;
-    Background background;
-    cv::Rect way =
-        {};  ///< where the ball is still to come; the background of the rest no longer matters
-    int followed = 0;  ///< images with such a way
-  };
   Sighting searchIn(int camera, int64_t utime, const cv::Mat& image);
   Sighting followIn(int camera, int64_t utime, const cv::Mat& image);
   void observe(int64_t utime, int camera, const BallFit& fit, const Eigen::Vector3d& p_WBall);
@@ -114,7 +96,6 @@ class ThrowTracker {
   void land();
   void giveUp(const std::string& why);
   void measureTarget();
-  std::optional<LandingEstimate> landingOn(const FlightEstimate& flight) const;
   bool passed(int64_t utime) const;
   /// The ball at what a camera's clock calls utime.
   model::BallState expectedAt(int64_t utime, int camera) const;
@@ -126,10 +107,7 @@ class ThrowTracker {
   TrackerOptions options_;
   std::vector<Eye> eyes_;
   std::vector<model::Camera> cameras_;
-  model::Target given_;               ///< as begin() was told
-  model::Target target_;              ///< as far as it is known
-  std::optional<RingEstimate> ring_;  ///< of a target to be measured, once it was looked for
-  std::string ring_note_;             ///< why it was not measured
+  TrackedTarget target_;
   FlightFinder finder_;
   State state_ = State::kWaiting;
 
