@@ -3,17 +3,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "vision_tracker/background.h"
+#include "vision_tracker/ring_template.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 96;  // of the ring's image, for distances
+constexpr int kSegments = 96;  // of the ring's image, for its template
 constexpr int kProbes = 48;    // along the ring, for the search
 constexpr int kSectors = 8;    // within one the ring is brighter than what is beside it, or darker
 constexpr double kSpacing = 2.0;        // [px], between pieces
@@ -72,14 +72,6 @@ std::vector<std::pair<std::size_t, Eigen::Vector2d>> placesAlong(
 }
 
 }  // namespace
-
-/// What the ring's image would be: for each pixel of the area the share that the tube covers, how it grows to the right and
-/// down [1/px], and the nearest place of the ring.
-struct RingFinder::Template {
-  cv::Mat1f share, right, down;
-  cv::Mat1f angle;     ///< [rad] of the ring; anything far from it
-  cv::Mat1f distance;  ///< [px] to the middle of the tube; huge far from it
-};
 
 /// Where to look.
 struct RingFinder::Piece {
@@ -159,80 +151,9 @@ cv::Mat1f RingFinder::search(const Ring& ring, int reach) const {
   return scores;
 }
 
-RingFinder::Template RingFinder::templateOf(const std::vector<Eigen::Vector2d>& images) const {
-  const double band = width_ / 2 + 4 * blur_ + kFarthestShift + 2;
-  Template made{cv::Mat1f(area_.size(), 0.0F), cv::Mat1f(area_.size(), 0.0F),
-                cv::Mat1f(area_.size(), 0.0F), cv::Mat1f(area_.size(), 0.0F),
-                cv::Mat1f(area_.size(), 1e6F)};
-  const Eigen::Vector2d origin(area_.x, area_.y);
-  Eigen::Vector2d low = images.front() - origin, high = low;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const Eigen::Vector2d a = images[i] - origin;
-    low = low.cwiseMin(a);
-    high = high.cwiseMax(a);
-    markNearest(a, images[(i + 1) % images.size()] - images[i], band, i, made);
-  }
-  const cv::Rect part =
-      cv::Rect(
-          cv::Point(static_cast<int>(low.x() - band) - 1, static_cast<int>(low.y() - band) - 1),
-          cv::Point(static_cast<int>(high.x() + band) + 2, static_cast<int>(high.y() + band) + 2)) &
-      cv::Rect({0, 0}, area_.size());
-  if (part.empty())
-    return made;
-  constexpr int kFiner = 4;
-  constexpr int kShift = 4;  // OpenCV's fixed point
-  std::vector<cv::Point> outline;
-  for (const Eigen::Vector2d& p : images) {
-    // A fine pixel's centre lies at a whole number too.
-    const Eigen::Vector2d fine = (p - origin - Eigen::Vector2d(part.x, part.y)) * kFiner +
-                                 Eigen::Vector2d::Constant((kFiner - 1) / 2.0);
-    outline.emplace_back(static_cast<int>(std::lround(fine.x() * (1 << kShift))),
-                         static_cast<int>(std::lround(fine.y() * (1 << kShift))));
-  }
-  cv::Mat drawn = cv::Mat::zeros(part.size() * kFiner, CV_8U);
-  cv::polylines(drawn, outline, true, cv::Scalar(255),
-                std::max(1, static_cast<int>(std::lround(width_ * kFiner))), cv::LINE_AA, kShift);
-  cv::Mat fine, slope, result;
-  drawn.convertTo(fine, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(fine, fine, {}, blur_ * kFiner, blur_ * kFiner);
-  cv::resize(fine, result, part.size(), 0, 0, cv::INTER_AREA);
-  result.copyTo(made.share(part));
-  cv::Sobel(fine, slope, CV_32F, 1, 0, 1, 0.5 * kFiner);
-  cv::resize(slope, result, part.size(), 0, 0, cv::INTER_AREA);
-  result.copyTo(made.right(part));
-  cv::Sobel(fine, slope, CV_32F, 0, 1, 1, 0.5 * kFiner);
-  cv::resize(slope, result, part.size(), 0, 0, cv::INTER_AREA);
-  result.copyTo(made.down(part));
-  return made;
-}
-
-/// For the pixels about one segment of the ring's image, whether it is the nearest.
-void RingFinder::markNearest(const Eigen::Vector2d& a,
-                             const Eigen::Vector2d& along,
-                             double band,
-                             std::size_t segment,
-                             Template& made) const {
-  const double length = std::max(along.squaredNorm(), 1e-12);
-  const Eigen::Vector2d low = a.cwiseMin(a + along), high = a.cwiseMax(a + along);
-  const int v_end = std::min(area_.height - 1, static_cast<int>(high.y() + band));
-  const int u_end = std::min(area_.width - 1, static_cast<int>(high.x() + band));
-  for (int v = std::max(0, static_cast<int>(low.y() - band)); v <= v_end; ++v) {
-    for (int u = std::max(0, static_cast<int>(low.x() - band)); u <= u_end; ++u) {
-      const Eigen::Vector2d from = Eigen::Vector2d(u, v) - a;
-      const double share = std::clamp(from.dot(along) / length, 0.0, 1.0);
-      const double distance = (from - share * along).norm();
-      if (distance >= static_cast<double>(made.distance(v, u)))
-        continue;
-      made.distance(v, u) = static_cast<float>(distance);
-      made.angle(v, u) =
-          static_cast<float>(2 * kPi * (static_cast<double>(segment) + share) / kSegments);
-    }
-  }
-}
-
 // The grey values of a piece are those of the wall (a level and a slope across), of the tube, and of the tube moved a little
 // across: linear in all four.
-std::optional<RingPoint> RingFinder::look(const Piece& piece, const Template& made) const {
+std::optional<RingPoint> RingFinder::look(const Piece& piece, const RingTemplate& made) const {
   const std::size_t count = piece.pixels.size();
   if (count < 12)
     return std::nullopt;
@@ -289,7 +210,7 @@ std::vector<RingPoint> RingFinder::points(const Ring& ring,
     return {};
   for (Eigen::Vector2d& p : images)
     p += shift;
-  const Template made = templateOf(images);
+  const RingTemplate made = ringTemplate(images, area_, width_, blur_, kFarthestShift);
   const Eigen::Vector2d origin(area_.x, area_.y);
   const double reach = width_ / 2 + 2 * blur_ + kFarthestShift;
   cv::Mat1i counts(area_.size(), 0);

@@ -10,6 +10,8 @@
 
 namespace fastball::vision_tracker {
 
+struct RingTemplate;
+
 /// Looks for the net's ring in the still scene before one camera: a closed line of the tube's width, brighter or darker than
 /// what lies beside it.
 class RingFinder {
@@ -37,15 +39,8 @@ class RingFinder {
                                 int* looked) const;
 
  private:
-  struct Template;
   struct Piece;
-  Template templateOf(const std::vector<Eigen::Vector2d>& images) const;
-  void markNearest(const Eigen::Vector2d& a,
-                   const Eigen::Vector2d& along,
-                   double band,
-                   std::size_t segment,
-                   Template& made) const;
-  std::optional<RingPoint> look(const Piece& piece, const Template& made) const;
+  std::optional<RingPoint> look(const Piece& piece, const RingTemplate& made) const;
 
   model::Camera camera_;
   double width_ = 0, blur_ = 0;  ///< [px]
