@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "logger/log_reader.h"
+#include "messaging/command_trailer.h"
 
 namespace fastball::launch {
 
@@ -11,10 +12,9 @@ void LogEndpoint::play(const std::string& path) {
     const auto found = subscriptions_.find(entry.channel);
     if (found == subscriptions_.end())
       return;
-    const int size =
-        static_cast<int>(messaging::withoutTrailer(entry.data.data(), entry.data.size()));
     for (const Subscription& one : found->second) {
-      const bool sound = one.type->decode(one.message.get(), entry.data.data(), size) == size &&
+      const bool sound = messaging::decodeWithoutTrailer(*one.type, one.message.get(),
+                                                         entry.data.data(), entry.data.size()) &&
                          !one.type->fault(one.message.get());
       messaging::ReceiveCounts& counts = counts_[entry.channel];
       ++(sound ? counts.accepted : counts.invalid);

@@ -20,8 +20,8 @@ struct LogEntry {
   /// Decodes into T. @return false if the bytes are not a T from first to last, but for a command's trailer. Any bytes are safe.
   template <class T>
   bool decode(T& message) const {
-    const int size = static_cast<int>(messaging::withoutTrailer(data.data(), data.size()));
-    return messaging::messageType<T>().decode(&message, data.data(), size) == size;
+    return messaging::decodeWithoutTrailer(messaging::messageType<T>(), &message, data.data(),
+                                           data.size());
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "messaging/channels.h"
+#include "messaging/message_type.h"
 
 /// What stands behind the encoded message of a command whose sender has a key (messaging/command_key.h):
 ///
@@ -35,6 +36,17 @@ inline bool hasTrailer(const void* data, std::size_t size) {
 /// [bytes] of the message itself.
 inline std::size_t withoutTrailer(const void* data, std::size_t size) {
   return hasTrailer(data, size) ? size - kTrailerBytes : size;
+}
+
+/// Decodes the message itself into `message`, which is of `type`.
+/// @return false if it is not one message of that type from its first byte to its last. Any bytes
+///   are safe.
+inline bool decodeWithoutTrailer(const MessageType& type,
+                                 void* message,
+                                 const void* data,
+                                 std::size_t size) {
+  const int whole = static_cast<int>(withoutTrailer(data, size));
+  return type.decode(message, data, whole) == whole;
 }
 
 /// True for the channels whose messages make the robot move, or decide how: those that carry a tag where a key is used. ESTOP

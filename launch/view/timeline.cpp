@@ -20,8 +20,7 @@ const std::string kCameraPrefix = "CAMERA_";
 
 template <class T>
 bool decode(const void* data, std::size_t size, T& message) {
-  const int whole = static_cast<int>(messaging::withoutTrailer(data, size));
-  return messaging::messageType<T>().decode(&message, data, whole) == whole &&
+  return messaging::decodeWithoutTrailer(messaging::messageType<T>(), &message, data, size) &&
          !messaging::fault(message);
 }
 
