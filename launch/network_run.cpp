@@ -183,13 +183,8 @@ void NetworkRun::refuseStrangers() const {
 }
 
 void NetworkRun::refuseOtherKeys() const {
-  for (const std::string& name : peers_) {
-    const heartbeat_t* heartbeat = roster_.newest(name);
-    if (heartbeat == nullptr || !hearsCommands(name))
-      continue;
-    if (const std::string fault = keyFault(*heartbeat, endpoint_.keyId()); !fault.empty())
-      throw std::runtime_error(fault);
-  }
+  if (const std::string fault = keyFault(roster_, peers_, endpoint_.keyId()); !fault.empty())
+    throw std::runtime_error(fault);
 }
 
 void NetworkRun::listenForOthers() {
