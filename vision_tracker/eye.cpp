@@ -1,10 +1,16 @@
 #include "vision_tracker/eye.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "vision_tracker/sphere_outline.h"
+
 namespace fastball::vision_tracker {
 namespace {
 
 constexpr int kImagesToLearn = 4;
-constexpr int kWayMargin = 40;  // [px], around the predicted way to the plane
+constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the limb
+constexpr int kWayMargin = 40;           // [px], around the predicted way to the plane
 
 }  // namespace
 
@@ -23,6 +29,19 @@ void Eye::reset() {
   background_.reset();
   way_ = {};
   followed_ = 0;
+}
+
+Observation Eye::observation(int64_t utime,
+                             int camera,
+                             const BallFit& fit,
+                             const Eigen::Vector3d& p_WBall,
+                             double ball_radius) const {
+  // An outline of a wrong size is wrong somewhere by as much: a finger or the ring covers a part.
+  const double radius = sphereOutline(setup_.camera, p_WBall, ball_radius).meanRadius();
+  const double off = std::max(0.0, std::abs(fit.radius - radius) - kSizeTolerance * radius);
+  return {utime,      camera,
+          fit.centre, fit.cov + off * off * Eigen::Matrix2d::Identity(),
+          fit.radius, fit.radius_variance + off * off};
 }
 
 bool Eye::hasLearned() const {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
 #include "model/camera.h"
 #include "vision_tracker/background.h"
 #include "vision_tracker/ball_detector.h"
+#include "vision_tracker/flight_estimate.h"
 
 namespace fastball::vision_tracker {
 
@@ -30,6 +32,14 @@ class Eye {
   const CameraSetup& setup() const { return setup_; }
   const BallDetector& detector() const { return detector_; }
   const Background& background() const { return background_; }
+  /// A fit of the ball as what it says of the flight.
+  /// @param camera index of this one @param p_WBall [m], about where the ball is
+  /// @param ball_radius [m]
+  Observation observation(int64_t utime,
+                          int camera,
+                          const BallFit& fit,
+                          const Eigen::Vector3d& p_WBall,
+                          double ball_radius) const;
   /// Whether it has learned enough for foreground to mean anything.
   bool hasLearned() const;
   /// Learns the background from an image (CV_8U). @param leave [px], where the ball is

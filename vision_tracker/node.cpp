@@ -95,8 +95,7 @@ class TrackerNode : public messaging::Node {
       return;
     // What came by then was seen with another camera, or by it at another place.
     if (news == Calibrations::News::kChanged && images_ > 0 && !over())
-      abandon(
-          fmt::format("not measured: the calibration of {} changed during the throw", m.channel));
+      abandon(fmt::format("the calibration of {} changed during the throw", m.channel));
     if (images_ == 0)
       setCameras();
   }
@@ -241,28 +240,22 @@ class TrackerNode : public messaging::Node {
   void abandon(const std::string& why) {
     abandoned_ = true;
     LandingReport report;
-    report.message = why;
+    report.message = "not measured: " + why;
     sayLanding(report);
   }
 
   void sayLanding() {
-    if (const auto report = tracker_.takeLanding())
-      sayLanding(checked(*report));
-  }
-
-  /// A landing of a ball whose size is not that of its distance is none.
-  LandingReport checked(const LandingReport& report) const {
-    if (!report.measured)
-      return report;
-    const auto excess = sizes_.excess(report.landing, calibrations_.cameras(), prior_);
-    if (!excess || std::abs(*excess) < SizeCheck::kTolerance)
-      return report;
-    LandingReport refused;
-    refused.message = fmt::format(
-        "not measured: the ball looks {:.0f} % {} than one of {} m radius at its distance, so a "
-        "calibration or the radius is wrong",
-        100 * std::abs(*excess), *excess > 0 ? "larger" : "smaller", prior_.ball_radius);
-    return refused;
+    auto report = tracker_.takeLanding();
+    if (!report)
+      return;
+    // A landing of a ball whose size is not that of its distance is none.
+    const std::string fault =
+        report->measured ? sizes_.fault(report->landing, calibrations_.cameras(), prior_) : "";
+    if (!fault.empty()) {
+      report.emplace();
+      report->message = "not measured: " + fault;
+    }
+    sayLanding(*report);
   }
 
   void sayLanding(const LandingReport& report) {

@@ -1,5 +1,7 @@
 #include "vision_tracker/size_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,6 +46,18 @@ std::optional<double> SizeCheck::excess(const LandingEstimate& landing,
       worst = *middle - 1;
   }
   return worst;
+}
+
+std::string SizeCheck::fault(const LandingEstimate& landing,
+                             const std::vector<model::Camera>& cameras,
+                             const FlightPrior& prior) const {
+  const auto off = excess(landing, cameras, prior);
+  if (!off || std::abs(*off) < kTolerance)
+    return "";
+  return fmt::format(
+      "the ball looks {:.0f} % {} than one of {} m radius at its distance, so a calibration or the "
+      "radius is wrong",
+      100 * std::abs(*off), *off > 0 ? "larger" : "smaller", prior.ball_radius);
 }
 
 }  // namespace fastball::vision_tracker

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model/camera.h"
@@ -21,6 +22,12 @@ class SizeCheck {
   std::optional<double> excess(const LandingEstimate& landing,
                                const std::vector<model::Camera>& cameras,
                                const FlightPrior& prior) const;
+
+  /// Why the landing cannot be this ball's, as a part of a sentence: the excess is kTolerance or
+  /// more, either way. An empty text if nothing speaks against it.
+  std::string fault(const LandingEstimate& landing,
+                    const std::vector<model::Camera>& cameras,
+                    const FlightPrior& prior) const;
 
   /// Blur, shading and what hides a part of the ball change its size by less.
   static constexpr double kTolerance = 0.05;

@@ -7,14 +7,12 @@
 #include <stdexcept>
 
 #include "vision_tracker/flight_fit.h"
-#include "vision_tracker/sphere_outline.h"
 
 namespace fastball::vision_tracker {
 namespace {
 
 constexpr double kClear = 1.2;  // ball radii before the target plane; nearer it may touch the ring
-constexpr double kSizeTolerance = 0.03;  // of the radius: foam, shading at the limb
-constexpr int kSureTrack = 40;           // observations that no arm imitates
+constexpr int kSureTrack = 40;  // observations that no arm imitates
 constexpr int kLeastForLanding = 16;     // observations
 constexpr int kMostMisses = 15;          // times
 constexpr std::size_t kWayInterval = 8;  // observations, between two looks at it
@@ -148,13 +146,8 @@ void ThrowTracker::observe(int64_t utime,
                            int camera,
                            const BallFit& fit,
                            const Eigen::Vector3d& p_WBall) {
-  // An outline of a wrong size is wrong somewhere by as much: a finger or the ring covers a part of it.
-  const model::Camera& eye = cameras_[static_cast<std::size_t>(camera)];
-  const double radius = sphereOutline(eye, p_WBall, options_.prior.ball_radius).meanRadius();
-  const double off = std::max(0.0, std::abs(fit.radius - radius) - kSizeTolerance * radius);
-  observations_.push_back({utime, camera, fit.centre,
-                           fit.cov + off * off * Eigen::Matrix2d::Identity(), fit.radius,
-                           fit.radius_variance + off * off});
+  const Eye& eye = eyes_[static_cast<std::size_t>(camera)];
+  observations_.push_back(eye.observation(utime, camera, fit, p_WBall, options_.prior.ball_radius));
 }
 
 void ThrowTracker::closeMoment() {
@@ -199,17 +192,10 @@ void ThrowTracker::startTrack(const FlightFinder::Found& found) {
   for (Eye& eye : eyes_)
     eye.expectWay({});
   if (options_.measure_target && !target_.wasSought())
-    measureTarget();
+    target_.measure(eyes_);
   takeFlight({*flight});
   state_ = State::kTracking;
   finder_.reset();
-}
-
-void ThrowTracker::measureTarget() {
-  std::vector<const cv::Mat*> still;
-  for (const Eye& eye : eyes_)
-    still.push_back(&eye.background().mean());
-  target_.measure(still, cameras_);
 }
 
 void ThrowTracker::updateTrack() {

@@ -95,7 +95,6 @@ class ThrowTracker {
   void loseTrack();
   void land();
   void giveUp(const std::string& why);
-  void measureTarget();
   bool passed(int64_t utime) const;
   /// The ball at what a camera's clock calls utime.
   model::BallState expectedAt(int64_t utime, int camera) const;

@@ -15,8 +15,13 @@ void TrackedTarget::give(const model::Target& target) {
   note_.clear();
 }
 
-void TrackedTarget::measure(const std::vector<const cv::Mat*>& still,
-                            const std::vector<model::Camera>& cameras) {
+void TrackedTarget::measure(const std::vector<Eye>& eyes) {
+  std::vector<const cv::Mat*> still;
+  std::vector<model::Camera> cameras;
+  for (const Eye& eye : eyes) {
+    still.push_back(&eye.background().mean());
+    cameras.push_back(eye.setup().camera);
+  }
   const Ring nominal{given_.p_WTarget, given_.n_WTarget, given_.radius + ring_prior_.tube / 2};
   const RingMeasurement measured = measureRing(still, cameras, nominal, ring_prior_, blur_);
   ring_ = measured.estimate ? *measured.estimate : unseenRing(nominal, ring_prior_, cameras.size());

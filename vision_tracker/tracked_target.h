@@ -1,12 +1,11 @@
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "model/camera.h"
 #include "model/target.h"
+#include "vision_tracker/eye.h"
 #include "vision_tracker/flight_landing.h"
 #include "vision_tracker/ring_pose.h"
 
@@ -25,9 +24,8 @@ class TrackedTarget {
   /// [m], of a point from the plane of the target as it is known, in front of it positive.
   double distance(const Eigen::Vector3d& p_W) const { return known_.distance(p_W); }
 
-  /// Looks for the target's ring in images of the still scene.
-  /// @param still of each camera, as Background::mean()
-  void measure(const std::vector<const cv::Mat*>& still, const std::vector<model::Camera>& cameras);
+  /// Looks for the target's ring in the still scene that each eye has learned.
+  void measure(const std::vector<Eye>& eyes);
   /// Whether it was looked for.
   bool wasSought() const { return ring_.has_value(); }
   /// Why it was looked for and taken as given all the same; else empty.
