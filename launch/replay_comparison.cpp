@@ -44,7 +44,7 @@ MessageComparison::Key MessageComparison::keyOf(const std::string& channel,
 
 MessageComparison::Key MessageComparison::record(const std::string& channel, const Bytes& message) {
   const Recorded recorded{++channels_[channel].recorded, message};
-  const Key key = keyOf(channel, message, recorded_counts_);
+  Key key = keyOf(channel, message, recorded_counts_);
   const auto said = said_.find(key);
   if (said == said_.end()) {
     recorded_.emplace(key, recorded);

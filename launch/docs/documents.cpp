@@ -39,7 +39,7 @@ std::string fastball(const std::vector<std::string>& arguments, const fs::path& 
   bp::ipstream output;
   bp::child child(programFolder() + "/fastball", bp::args(arguments), bp::std_out > output,
                   bp::start_dir(folder.string()));
-  const std::string text{std::istreambuf_iterator<char>(output), {}};
+  std::string text{std::istreambuf_iterator<char>(output), {}};
   child.wait();
   if (child.exit_code() != 0)
     throw std::runtime_error(

@@ -197,6 +197,7 @@ std::vector<Said> inFew(const std::vector<Said>& heard) {
 std::vector<std::vector<Said>> conversations(const std::vector<Said>& heard) {
   std::vector<Said> opening = openingOf(heard);
   std::vector<std::vector<Said>> all;
+  all.reserve(opening.size());
   for (const Said& one : opening)
     all.push_back({one});
   // An ESTOP would end what the others begin.

@@ -129,7 +129,7 @@ class ScriptedPeers {
     truth.scene_id = scene_id;
     truth.event = event;
     truth.event_index = index;
-    truth.utime = 1000 * event;
+    truth.utime = int64_t{1000} * event;
     truth.v_WBall[0] = 3.0;
     truth.v_WBall[2] = 4.0;
     truth.landing[0] = 0.011;

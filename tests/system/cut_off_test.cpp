@@ -15,7 +15,6 @@
 namespace fastball::system_test {
 namespace {
 
-using test_kit::Hosts;
 using testing::HasSubstr;
 
 constexpr int64_t kLimitUs = 500'000;  ///< silence_limit of a system on several hosts
@@ -90,11 +89,12 @@ void CutOff::cutOff(const std::string& host) {
 /// Nobody's HEARTBEAT says any more that somebody is silent; but those who stopped for it remember why until the next throw.
 void CutOff::expectRecovered() {
   const std::string words = "nothing has been heard";
+  const std::vector<std::string> memories = {"braked: " + words, "kept the ball: " + words};
   for (const auto& [process, host] : places_) {
     const auto says = [&, key = host + "/" + process] {
       std::string detail = ears_.at("operator")->beats(key).back().detail;
-      for (const char* memory : {"braked: ", "kept the ball: "})
-        if (detail.rfind(memory + words, 0) == 0)
+      for (const std::string& memory : memories)
+        if (detail.rfind(memory, 0) == 0)
           detail.erase(0, detail.find(')'));
       return detail;
     };

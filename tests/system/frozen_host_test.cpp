@@ -11,7 +11,6 @@
 namespace fastball::system_test {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 
 class FrozenHost : public WatchedHosts {
