@@ -35,7 +35,6 @@ class DenseSwing {
     return static_cast<unsigned>(planner::kSwingLimits * samples_ + 1);
   }
   unsigned equalityCount() const { return static_cast<unsigned>(bounds_.equalityCount()); }
-  int evaluations() const { return evaluations_; }
   std::vector<double> free(const SwingVector& x) const {
     std::vector<double> u;
     for (const int i : free_)
@@ -65,7 +64,6 @@ class DenseSwing {
     values(u);
     if (!has_slopes_) {
       has_slopes_ = true;
-      ++evaluations_;
       slopes_.resize(values_.size(), size());
       for (unsigned k = 0; k < size(); ++k)
         slopes_.col(k) = (evaluate(at_ + kStep * SwingVector::Unit(free_[k])) - values_) / kStep;
@@ -106,7 +104,7 @@ class DenseSwing {
   planner::SwingLimits limits_;
   planner::ReleaseConditions release_;
   SwingVector x_, at_ = SwingVector::Zero();
-  int elbow_sign_, samples_, evaluations_ = 0;
+  int elbow_sign_, samples_;
   std::vector<int> free_;
   Eigen::VectorXd values_;
   Eigen::MatrixXd slopes_;
@@ -174,7 +172,6 @@ planner::SwingSolution optimiseDensely(const planner::SwingTask& task,
   const planner::SwingProblem::Values values = bounds.evaluate(solution.x);
   solution.release_speed = values.release_speed;
   solution.violation = values.violation();
-  solution.evaluations = swing.evaluations();
   return solution;
 }
 

@@ -48,8 +48,6 @@ void readStops(Section& file, model::ArmParameters* arm) {
   }
 }
 
-}  // namespace
-
 Eigen::Matrix3d readInertia(Section& section, const std::string& key) {
   Section part = section.section(key);
   Eigen::Matrix3d inertia;
@@ -69,6 +67,8 @@ Eigen::Matrix3d readInertia(Section& section, const std::string& key) {
   }
   return inertia;
 }
+
+}  // namespace
 
 model::RigidBody readBody(Section section) {
   model::RigidBody body;

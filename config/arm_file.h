@@ -5,15 +5,13 @@
 
 namespace fastball::config {
 
-/// Inertia given as {xx, yy, zz} or {xx, yy, zz, xy, xz, yz} [kg m^2]: the true tensor,
-/// off-diagonals are minus the products.
-/// @throw ConfigError unless a rigid body can have it.
-Eigen::Matrix3d readInertia(Section& section, const std::string& key);
-
-/// A map with mass [kg], com [m] and inertia.
+/// A map with mass [kg], com [m] and inertia about it [kg m^2]: {xx, yy, zz} or {xx, yy, zz, xy,
+/// xz, yz}, the true tensor, whose off-diagonals are minus the products.
+/// @throw ConfigError also for an inertia that no rigid body has.
 model::RigidBody readBody(Section section);
 
 /// A profile (config/arm/wam4-*.yaml) with the mechanics file that it names.
+/// @throw ConfigError
 model::ArmParameters readArm(Section profile);
 
 }  // namespace fastball::config

@@ -23,12 +23,13 @@ struct Experiment {
 
 /// Reads the shared part of an experiment file (keys arm, hand, ball: file names; target, rest:
 /// maps). Each process reads its own section (keys planner, controller, hand_server, simulation,
-/// cameras, tracker) with processSection().
+/// cameras, tracker, run) with processSection().
 /// @throw ConfigError
 Experiment loadExperiment(const std::string& path);
 
 /// The process's own section of the experiment file; every other top-level key is known and left
 /// alone, an unknown one is an error.
+/// @throw ConfigError
 Section processSection(const std::string& path, const std::string& process);
 
 /// The experiment file used when none is named: $FASTBALL_CONFIG, else the config/experiment.yaml

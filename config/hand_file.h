@@ -11,6 +11,8 @@ namespace fastball::config {
 model::BallParameters readBall(Section file);
 
 /// config/hand.yaml; `ball` becomes a part of the payload.
+/// @throw ConfigError also if palm and fingers have another mass than the whole hand, or the ball
+/// would lie in the palm.
 model::HandParameters readHand(Section file, const model::BallParameters& ball);
 
 }  // namespace fastball::config

@@ -81,6 +81,7 @@ class ArmController {
   const Status& status() const { return status_; }
   /// Why a plan or an order was refused or the arm stopped; empty if neither.
   const std::string& notice() const { return notice_; }
+  /// 0: none yet.
   int64_t scene() const { return scene_ ? *scene_ : 0; }
   /// The last plan taken or refused, 0: none.
   int64_t planId() const { return plan_id_; }

@@ -114,17 +114,8 @@ std::optional<std::string> limitFault(const model::Arm& arm, const Plan& plan) {
 }  // namespace
 
 bool operator==(const Plan& a, const Plan& b) {
-  const auto& sa = a.trajectory.samples();
-  const auto& sb = b.trajectory.samples();
-  if (a.id != b.id || a.trajectory.dt() != b.trajectory.dt() || sa.size() != sb.size()) {
-    return false;
-  }
-  for (std::size_t k = 0; k < sa.size(); ++k) {
-    if (sa[k].q != sb[k].q || sa[k].qd != sb[k].qd || sa[k].qdd != sb[k].qdd) {
-      return false;
-    }
-  }
-  return a.t_ready == b.t_ready && a.t_swing == b.t_swing && a.t_swing_end == b.t_swing_end;
+  return a.id == b.id && a.t_ready == b.t_ready && a.t_swing == b.t_swing &&
+         a.t_swing_end == b.t_swing_end && a.trajectory == b.trajectory;
 }
 
 std::optional<std::string> planFault(const model::Arm& arm, const Plan& plan) {

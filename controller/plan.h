@@ -18,13 +18,16 @@ struct Plan {
   model::SampledTrajectory trajectory;
 };
 
+/// The same to the last digit.
 bool operator==(const Plan& a, const Plan& b);
 
 /// Why the plan must not be followed, wherever the arm is: times out of order, not finite, not at rest at both ends, or
-/// beyond a position, speed or torque limit (drive inertia and friction included) on a 1 ms grid. One sentence, or nothing.
+/// beyond a position limit (the stops less the arm's margin), a speed or a torque limit (drive
+/// inertia and friction included) on a 1 ms grid. One sentence, or nothing.
 std::optional<std::string> planFault(const model::Arm& arm, const Plan& plan);
 
 /// Why the plan must not be followed from an arm at q [rad], or nothing.
+/// @param tolerance [rad], of each joint.
 std::optional<std::string> startFault(const Plan& plan, const Eigen::Vector4d& q, double tolerance);
 
 }  // namespace fastball::controller

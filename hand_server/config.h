@@ -19,11 +19,11 @@ struct HandServerConfig {
   double normal_force_window =
       0;  ///< [s], before and after the planned release: Eq. (24) counts only there
   model::ReleaseSettings release;
-  double grasp_time = 0;       ///< [s], to close the fingers on the ball
+  double grasp_time = 0;       ///< [s], to close the fingers on the ball, or to open them
   double settle_time = 0;      ///< [s], then the fingers even out their forces
   double settle_constant = 0;  ///< [s], how fast they do
   TrialSettings trial;         ///< of the opening, before the swing
-  double clear_delay = 0;      ///< [s], after the release the fingers open at the latest
+  double clear_delay = 0;      ///< [s], after the command the fingers open at the latest
   double force_noise = 0;      ///< [N], standard deviation of the fingertips' force sensors
   double force_delay = 0;      ///< [s], from a force to its reading
   double command_shift_max =

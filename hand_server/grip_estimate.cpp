@@ -1,6 +1,5 @@
 #include "hand_server/grip_estimate.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

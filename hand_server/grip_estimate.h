@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
 #include "hand_server/ball_watch.h"
@@ -20,8 +19,8 @@ struct GripEstimate {
 /// Feels how the ball lies in the hand at rest. The joint angles say where the three fingers are, and Eq. (27) how deep a force
 /// presses a finger into the ball:
 ///     y(F_i; E) = a + r_finger - |p - (axis of finger i)|,   i = finger A, thumb, finger B,
-/// three equations for E and the place p of the ball across the fingers; its radius a is known. Forces and angles are averaged
-/// over some 20 ms. No function allocates.
+/// three equations for E and the place p of the ball across the fingers; its radius a is known.
+/// Forces and angles are averaged with a time constant of 20 ms. No function allocates.
 class GripFeeling {
  public:
   /// Takes a state of the hand at rest, dt [s] after the one before.

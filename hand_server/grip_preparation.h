@@ -29,7 +29,7 @@ class GripPreparation {
   /// From the targets of the planned grasp to those of the state at utime [us].
   void apply(int64_t utime, model::JointTargets& targets) const;
 
-  /// The grasp as it has settled.
+  /// As GripSettling has it.
   model::GraspGeometry settled() const { return settling_.settled(); }
   /// Nothing if the fingers cannot tell.
   std::optional<GripEstimate> estimate() const;

@@ -12,7 +12,7 @@ namespace fastball::hand_server {
 /// Closes each finger as far as the ball is there, whether it lies in the middle or not and however hard it is: a finger's
 /// distance from the hand's axis follows its force,
 ///     dc/dt = (f - f_planned) / (k tau),   k the ball's stiffness in the planned grasp;
-/// one that hardly feels the ball looks for it.
+/// one that hardly feels the ball looks for it. No finger goes farther than 15 mm.
 class GripSettling {
  public:
   GripSettling() = default;
@@ -22,11 +22,13 @@ class GripSettling {
                const model::HandParameters& hand,
                double time_constant);
 
-  /// Once a tick of dt [s], by the forces felt. While the fingers still close they only give way.
+  /// Once a tick of dt [s], by the forces felt [N]. While the fingers still close they only give
+  /// way.
   void step(const FingerForces& force, bool closing, double dt);
   /// The fingers of posture q, whose distal phalanges are parallel to z, where the forces want them.
   void apply(model::HandVector& q) const;
-  /// The grasp as it has settled.
+  /// The grasp as it has settled: posture and distances; forces, torques and deformations are those
+  /// planned.
   model::GraspGeometry settled() const;
 
  private:

@@ -42,10 +42,9 @@ struct ReleaseEvent {
   int64_t plan_id = 0;
   Kind kind = Kind::kCommanded;
   ReleaseBy reason = ReleaseBy::kPlanTime;
-  int64_t planned_utime = 0;  ///< [us]
-  int64_t predicted_utime =
-      0;                 ///< [us], of the departure, by what the hand has learned of its delay
-  FingerForces force{};  ///< [N]
+  int64_t planned_utime = 0;    ///< [us], of the command or the departure, by the plan
+  int64_t predicted_utime = 0;  ///< [us], of the departure, by what the hand has felt and learned
+  FingerForces force{};         ///< [N]
   std::optional<GripEstimate> grip;     ///< how the ball lay in the hand before the swing
   std::optional<DeadTimes> dead_times;  ///< of the fingers, felt before the swing
 };
@@ -70,7 +69,7 @@ class HandController {
   bool startThrow(const ThrowOrder& order);
   /// Keeps what the hand holds, until a new scene, and drops the plan. A release under way goes on.
   void keep(const std::string& reason);
-  /// Where the arm is: the ball is kept if the arm does not follow the plan.
+  /// Where the arm is, q [rad] at utime [us]: the ball is kept if the arm does not follow the plan.
   void watchArm(int64_t scene_id, int64_t utime, const Eigen::Vector4d& q);
   /// Nothing for a state older than one already answered. Does not allocate unless something is wrong.
   std::optional<HandAnswer> answer(const HandSample& sample);
@@ -78,6 +77,7 @@ class HandController {
   std::optional<ReleaseEvent> takeEvent();
 
   Phase phase() const { return phase_; }
+  /// 0: none yet.
   int64_t scene() const { return scene_ ? *scene_ : 0; }
   /// Why a plan or an order was refused, the ball is kept, what is wrong with the grip, or that the ball was touched again; empty
   /// if nothing.

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
 #include "hand_server/config.h"
 #include "model/ball_parameters.h"
@@ -25,6 +23,7 @@ struct HandPlan {
       false;  ///< the command may come earlier or later by what the hand has learned of its delay
 };
 
+/// The same to the last digit.
 bool operator==(const HandPlan& a, const HandPlan& b);
 
 /// A plan with the posture that holds the ball.

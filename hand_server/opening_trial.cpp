@@ -1,7 +1,6 @@
 #include "hand_server/opening_trial.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/contact.h"
 

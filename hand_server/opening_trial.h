@@ -21,10 +21,11 @@ struct TrialSettings {
 /// [s], from the command to a finger until it obeys: finger A, thumb, finger B.
 using DeadTimes = std::array<double, model::kFingers>;
 
-/// How late [s] fingers seem to obey whose commands arrive at once. A command holds for a tick, so that on average it is half a tick
-/// old. And a finger is where its servo's stiffness kp and the ball's, k r^2 at the joint's lever r, have it: of the torque told, the
-/// share k r^2 / (kp + k r^2) that follows the ball's force comes with the drive's lag.
-/// @param kp [N m/rad], of all joints.
+/// How late [s] fingers seem to obey whose commands arrive at once. A command holds for a tick, so
+/// that on average it is half a tick old. And a finger is where its servo's stiffness kp and the
+/// ball's, k r^2 at the joint's lever r, have it: of the torque told, the share
+/// k r^2 / (kp + k r^2) that follows the ball's force comes with the drive's lag.
+/// @param kp [N m/rad], of all joints. @param actuator_lag [s].
 DeadTimes promptFingers(const model::GraspGeometry& grasp,
                         const model::BallParameters& ball,
                         const model::HandVector& kp,
@@ -48,10 +49,11 @@ class OpeningTrial {
   void tell(double t, model::JointTargets& targets) const;
   /// Takes a posture measured t [s] after the begin.
   void feel(double t, const model::HandVector& q);
-  /// Nothing if a finger did not move as it was told.
+  /// [s], the delays found less `prompt`, at least 0. Nothing if a finger did not move as it was
+  /// told.
   std::optional<DeadTimes> deadTimes() const;
 
-  /// As many postures are taken; later ones count for nothing.
+  /// So many postures are taken; later ones count for nothing.
   static constexpr int kMostSamples = 128;
 
  private:

@@ -8,6 +8,7 @@
 namespace fastball::hand_server {
 
 /// Acceleration of the hand's point where the ball is held less that of gravity [m/s^2], in H.
+/// @param X_TH pose of the hand in the tool frame. @param p_HBall [m], ball centre in the hand.
 Eigen::Vector3d carryingAcceleration(const model::Arm& arm,
                                      const model::ArmMotion& motion,
                                      const Eigen::Isometry3d& X_TH,
@@ -15,7 +16,6 @@ Eigen::Vector3d carryingAcceleration(const model::Arm& arm,
 
 /// How hard the hand pushes the ball along the direction of the throw, as an acceleration: alpha'_0y - g'_y of Eq. (24)
 /// [m/s^2], of the hand's point where the ball is held. Negative: only the thumb keeps the ball in the hand.
-/// @param X_TH pose of the hand in the tool frame; @param p_HBall [m], ball centre in the hand.
 double pushingAcceleration(const model::Arm& arm,
                            const model::ArmMotion& motion,
                            const Eigen::Isometry3d& X_TH,

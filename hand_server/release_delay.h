@@ -23,7 +23,8 @@ class ReleaseDelay {
     const Learned& learned = learned_[static_cast<std::size_t>(mode)];
     return learned.sum / (learned.throws + 1);
   }
-  /// [s], by how much later (negative: earlier) than planned the command shall come for the ball to leave when planned.
+  /// [s], by how much later (negative: earlier) than planned the command shall come for the ball to
+  /// leave when planned; at most by `most` [s].
   double commandShift(model::ReleaseMode mode, double most) const {
     return std::clamp(-correction(mode), -most, most);
   }

@@ -17,7 +17,8 @@ struct TorqueDerivatives;
 struct PointMotion;
 struct DirectionMotion;
 
-/// The 4-DOF WAM as rigid bodies in fixed-size Eigen: no function allocates or throws. World W:
+/// The 4-DOF WAM as rigid bodies in fixed-size Eigen: no function allocates or throws. Angles,
+/// speeds and accelerations of joints are in [rad], [rad/s] and [rad/s^2] throughout. World W:
 /// origin at the shoulder centre, x forward, y left, z up; zero pose: arm straight up. Tool frame
 /// T: on the tool plate, axes of DH frame 4 (z along the forearm, away from the elbow).
 class Arm {
@@ -69,8 +70,9 @@ class Arm {
 
   /// Largest ratio of speed to limit over joints and differential; 1 is at the limit.
   double speedRatio(const Vector4& qd) const;
+  /// The same of torques [N m].
   double torqueRatio(const Vector4& tau) const;
-  /// tau scaled into the limits: joints 1 and 4 clipped, the pair (2, 3) shrunk along its own
+  /// tau [N m] scaled into the limits: joints 1 and 4 clipped, the pair (2, 3) shrunk along its own
   /// direction.
   Vector4 clipTorque(const Vector4& tau) const;
 

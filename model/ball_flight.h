@@ -14,6 +14,9 @@ struct BallState {
   Eigen::Vector3d v_WBall = Eigen::Vector3d::Zero();  ///< [m/s]
 };
 
+// In all that follows drag_per_metre is k [1/m], of BallParameters::dragPerMetre(), and gravity is
+// along -z of the world [m/s^2].
+
 /// a = g - k |v| v [m/s^2].
 Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W,
                                    double drag_per_metre,
@@ -23,8 +26,9 @@ Eigen::Vector3d flightAcceleration(const Eigen::Vector3d& v_W,
 /// 5 ms).
 BallState fly(const BallState& start, double duration, double drag_per_metre, double gravity);
 
-/// The same with first derivatives by the velocity at the start; by the position they are the identity and zero, by the duration
-/// they are velocity and acceleration at the end. With the default steps [s] right to 1e-9 m.
+/// The same with first derivatives by the velocity at the start; by the position they are the
+/// identity and zero, by the duration they are velocity and acceleration at the end. With the
+/// default steps [s] right to 1e-9 m.
 struct FlightDerivatives {
   BallState state;
   Eigen::Matrix3d dp_dv;  ///< [s]
@@ -36,8 +40,9 @@ FlightDerivatives flyWithDerivatives(const BallState& start,
                                      double gravity,
                                      double largest_step = 0.02);
 
-/// The velocity [m/s] with which a ball at p_W is at `p_WGoal` after `duration` > 0 [s]. `guess`, if known, makes it faster.
-/// Not finite where drag forbids so short a flight.
+/// The velocity [m/s] with which a ball at p_W is at `p_WGoal` after `duration` > 0 [s]; fly() then
+/// ends within 1e-4 m of it. `guess`, if known, makes it faster. Not finite where drag forbids so
+/// short a flight.
 Eigen::Vector3d velocityToReach(const Eigen::Vector3d& p_W,
                                 const Eigen::Vector3d& p_WGoal,
                                 double duration,
@@ -45,7 +50,7 @@ Eigen::Vector3d velocityToReach(const Eigen::Vector3d& p_W,
                                 double gravity,
                                 const std::optional<Eigen::Vector3d>& guess = {});
 
-/// Where and when the ball's centre crosses the target plane from the robot's side.
+/// Where and when the ball's centre crosses the target plane from its front.
 struct Landing {
   double time = 0;                                    ///< [s] after the start
   Eigen::Vector2d landing = Eigen::Vector2d::Zero();  ///< [m], plane coordinates

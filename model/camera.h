@@ -14,7 +14,7 @@ struct Camera {
   int width = 0, height = 0;                                                     ///< [px]
   double fx = 0, fy = 0, cx = 0, cy = 0;                                         ///< [px]
   Eigen::Matrix<double, 5, 1> distortion = Eigen::Matrix<double, 5, 1>::Zero();  ///< k1 k2 p1 p2 k3
-  Eigen::Matrix3d R_CW = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_CW = Eigen::Matrix3d::Identity();  ///< camera frame: x right, y down, z ahead
   Eigen::Vector3d p_CW = Eigen::Vector3d::Zero();  ///< [m], origin of the world in the camera frame
 
   /// Point in the camera frame [m].

@@ -9,7 +9,7 @@ namespace fastball::model {
 /// Normal force [N] of the elastic ball for a deformation y [m], F = pi E (1 - y/a) y^2 (Eq. 27); 0 for y <= 0, and
 /// maximumForce() from y = 2 a / 3 on, where the law itself would fall again.
 double elasticForce(const BallParameters& ball, double y);
-/// dF/dy [N/m].
+/// dF/dy [N/m]; 0 where the force is constant.
 double elasticStiffness(const BallParameters& ball, double y);
 /// Energy [J] stored in the deformation y [m], the integral of elasticForce().
 double elasticEnergy(const BallParameters& ball, double y);
@@ -35,7 +35,9 @@ class Contact {
                        double y,
                        const Eigen::Vector3d& v_W,
                        double dt);
+  /// The next touch begins with a relaxed bristle; step() does so by itself while y <= 0.
   void reset() { bristle_W_.setZero(); }
+  /// Whether friction was at the Coulomb limit in the last step.
   bool slipping() const { return slipping_; }
   /// Stretch of the bristle [m], in the contact plane.
   const Eigen::Vector3d& bristle() const { return bristle_W_; }

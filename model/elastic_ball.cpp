@@ -18,10 +18,6 @@ constexpr double kQuietTime = 3e-3;  // [s] without touch after which the ball h
 constexpr double kTouch = 1e-12;     // [m], a gap of rounding errors
 constexpr double kStill = 1e-12;     // [m/s], a speed of rounding errors
 
-Vector3d pointVelocity(const HandMotion& hand, const Vector3d& p_W) {
-  return hand.v_WH + hand.w_WH.cross(p_W - hand.X_WH.translation());
-}
-
 /// One finger at one time.
 struct Press {
   Vector3d n_W, arm_W;  ///< normal; contact point from the ball's centre

@@ -29,7 +29,8 @@ void requireElastic(const BallParameters& ball);
 
 /// At rest in the hand where the fingers' normal forces carry the ball's inertia and weight along y' (Eq. 22 with x' = 0); apart
 /// from the fingers by nothing if they need not push.
-/// @throw std::invalid_argument if the load is more than the ball can carry (Eq. 27).
+/// @throw as elasticOnFingers(), and std::invalid_argument if the load is more than the ball can
+/// carry (Eq. 27) or presses it through between the fingers.
 ElasticStart settledStart(const BallParameters& ball,
                           const FingerPair& fingers,
                           const HandPath& hand_at,
@@ -39,9 +40,9 @@ ElasticStart settledStart(const BallParameters& ball,
 /// of model/contact.h as a differential equation:
 ///     N = max(0, F(y) + 2 zeta sqrt(m dF/dy) dy/dt),    pull = k s + c u,    friction = -pull, clipped to mu N
 ///     ds/dt = (friction of opposite sign - k s) / c, which is the slip velocity u while nothing is clipped
-/// s the bristle's stretch, in the contact plane and zero while apart. The ball has left when nothing has pressed on it for
-/// 3 ms; t_release is the last touch.
-/// @throw std::invalid_argument as rollOnFingers(), or if E, damping ratio or bristle make no sense.
+/// s the bristle's stretch, in the contact plane and zero while apart. The ball has left when
+/// nothing has pressed on it for 3 ms, or it comes to the fingertips; t_release is the last touch.
+/// @throw as rollOnFingers(), and as requireElastic().
 ElasticMotion elasticOnFingers(const BallParameters& ball,
                                const FingerPair& fingers,
                                const HandPath& hand_at,

@@ -26,9 +26,10 @@ struct EventEnd {
   int event = -1;  ///< index of what has happened; -1: nothing until t_end
 };
 
-/// Integrates from y at time t [s] to t_end or to an event, with error control (Dormand and Prince's Runge-Kutta pair with dense
-/// output).
-/// @throw std::runtime_error if the state does not stay finite or needs steps of no length.
+/// Integrates from y at time t [s] to t_end or to an event, with error control (Dormand and
+/// Prince's Runge-Kutta pair with dense output).
+/// @throw std::runtime_error if y is not finite, t_end lies before t, or the state does not stay
+/// finite or needs steps of no length.
 EventEnd integrateToEvent(const EventTask& task, double t, const Eigen::VectorXd& y, double t_end);
 
 }  // namespace fastball::model

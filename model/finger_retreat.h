@@ -21,14 +21,13 @@ class FingerRetreat {
   /// Sets q, qd and tau of the finger's proximal and distal joint.
   /// @param rate dw/dt [1/s].
   void tell(Finger finger, double way, double rate, JointTargets& targets) const;
-  /// [rad], proximal joint of the finger at w.
-  double proximalAngle(Finger finger, double way) const;
-
-  /// Of the whole hand in the grasp.
+  /// Of the whole hand in the grasp: [rad], [N m].
   const HandVector& q_grasp() const { return q_grasp_; }
   const HandVector& tau_grasp() const { return tau_grasp_; }
 
  private:
+  double proximalAngle(Finger finger, double way) const;
+
   double base_radius_ = 0, proximal_length_ = 1;
   std::array<double, kFingers> distance_{}, deformation_{};  ///< [m], of the grasp
   HandVector q_grasp_ = HandVector::Zero(), tau_grasp_ = HandVector::Zero();

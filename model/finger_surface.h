@@ -25,7 +25,7 @@ struct SurfaceMeeting {
   Eigen::Vector3d n_H;  ///< unit, from the surface to the ball's centre
   double distance = 0;  ///< [m], of the ball's centre from the surface
 };
-/// Has no direction, and n_H is zero, for a centre on a finger's axis.
+/// p_HBall [m]. Has no direction, and n_H is zero, for a centre on a finger's axis.
 SurfaceMeeting meet(const FingerSurface& surface, const Eigen::Vector3d& p_HBall);
 
 /// The two fingers of Fig. 7 behind the ball: parallel, straight, moving as one. Frame F: x along the fingers (the paper's x'),
@@ -35,11 +35,15 @@ struct FingerPair {
   double half_spacing = 0;   ///< w [m], of the fingers' axes from the plane z = 0
   double finger_radius = 0;  ///< r_f [m]; with w = 0 too: a flat finger plane
 
+  /// No groove: a plane, or a single round finger.
   bool flat() const { return half_spacing == 0; }
-  /// cos beta, sin beta = w / (a + r_f): beta is the contact normals' angle to y. 1 on a flat plane.
-  /// @throw std::invalid_argument if the ball falls through between the fingers, or a length is not finite and positive or zero.
+  /// cos beta, sin beta = w / (a + r_f): beta is the contact normals' angle to y. 1 without a
+  /// groove.
+  /// @throw std::invalid_argument if the ball falls through between the fingers, the ball's radius
+  /// is not positive, or another length is negative or no number.
   double cosBeta(double ball_radius) const;
-  /// h [m], of the ball's centre above the line about which it rolls: a on a plane, a cos beta in the groove.
+  /// h [m], of the ball's centre above the line about which it rolls: a on a plane, a cos beta in
+  /// the groove. @throw as cosBeta(), and so does surfaces().
   double rollingHeight(double ball_radius) const { return ball_radius * cosBeta(ball_radius); }
   /// One plane or two round fingers, in H. A pair of spacing 0 with a radius is one round finger.
   std::vector<FingerSurface> surfaces(double ball_radius) const;
@@ -49,8 +53,8 @@ struct FingerPair {
 /// @throw std::invalid_argument if they stand on opposite sides of the ball.
 FingerPair fingersBehind(const HandParameters& hand, double ball_radius);
 
-/// The fingers' frame, its origin's velocity [m/s] and acceleration [m/s^2] and the hand's turning, everything in F's own axes
-/// (the primed quantities of Eq. 18).
+/// The fingers' frame, its origin's velocity [m/s] and acceleration [m/s^2] and the hand's turning
+/// [rad/s], [rad/s^2], everything in F's own axes (the primed quantities of Eq. 18).
 struct FingerFrameMotion {
   Eigen::Isometry3d X_WF;
   Eigen::Vector3d v_F, a_F;   ///< v0', alpha0'

@@ -70,7 +70,7 @@ std::array<Segment, 2> Hand::phalanges(Finger finger, const HandVector& q) const
   return {Segment{plane.p_base, p_elbow}, Segment{p_elbow, p_tip}};
 }
 
-Eigen::Vector3d Hand::parallelFinger(Finger /*finger*/, double distance) const {
+Eigen::Vector3d Hand::parallelFinger(double distance) const {
   const double inward = parameters_.base_radius - distance;
   if (!(std::abs(inward) <= parameters_.proximal_length)) {
     std::ostringstream message;
@@ -92,7 +92,7 @@ HandVector Hand::posture(double roll,
   q[kWristRoll] = roll;
   q[kWristFlexion] = flexion;
   for (const Finger finger : {kFingerA, kThumb, kFingerB}) {
-    const Eigen::Vector3d angles = parallelFinger(finger, distances[finger]);
+    const Eigen::Vector3d angles = parallelFinger(distances[finger]);
     const int proximal = proximalJoint(finger);
     if (finger != kThumb)
       q[proximal - 1] = angles[0];

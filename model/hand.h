@@ -11,7 +11,7 @@ namespace fastball::model {
 
 using HandVector = Eigen::Matrix<double, kHandJoints, 1>;
 
-/// A capsule's axis.
+/// A capsule's axis, in H where the hand gives it.
 struct Segment {
   Eigen::Vector3d p_start, p_end;  ///< [m]
 };
@@ -29,11 +29,13 @@ class Hand {
   Eigen::Isometry3d X_TH(double roll, double flexion) const;
   /// Axes of the proximal and the distal phalanx in H.
   std::array<Segment, 2> phalanges(Finger finger, const HandVector& q) const;
-  /// Joint angles of one finger (spread, proximal, distal; the thumb's spread is 0) that hold its distal phalanx parallel to z,
-  /// its axis `distance` [m] from the z axis of H on the finger's own side.
+  /// Joint angles [rad] of any finger (spread, proximal, distal) that hold its distal phalanx
+  /// parallel to z, its axis `distance` [m] from the z axis of H on the finger's own side.
   /// @throw std::invalid_argument if the proximal phalanx is too short for that.
-  Eigen::Vector3d parallelFinger(Finger finger, double distance) const;
-  /// All joints of the hand: wrist as given, each finger's distal phalanx parallel to z at its distance [m].
+  Eigen::Vector3d parallelFinger(double distance) const;
+  /// All joints [rad] of the hand: wrist as given, each finger's distal phalanx parallel to z at
+  /// its distance [m].
+  /// @throw std::invalid_argument as parallelFinger().
   HandVector posture(double roll,
                      double flexion,
                      const std::array<double, kFingers>& distances) const;
@@ -43,7 +45,8 @@ class Hand {
                                const HandVector& q,
                                const Eigen::Vector3d& p_H,
                                const Eigen::Vector3d& force_H) const;
-  /// First joint index of a finger's flexion (proximal); the distal one follows, a spread joint precedes it.
+  /// First joint index of a finger's flexion (proximal); the distal one follows, the spread joint
+  /// of finger A or B precedes it.
   static int proximalJoint(Finger finger);
   /// A finger's joints: those of its flexion and, before them, a spread joint if it has one.
   struct JointRange {

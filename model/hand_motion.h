@@ -12,4 +12,9 @@ struct HandMotion {
   Eigen::Vector3d a_WH, dw_WH;  ///< [m/s^2], [rad/s^2]
 };
 
+/// Velocity [m/s] of the hand's material point at p_W.
+inline Eigen::Vector3d pointVelocity(const HandMotion& hand, const Eigen::Vector3d& p_W) {
+  return hand.v_WH + hand.w_WH.cross(p_W - hand.X_WH.translation());
+}
+
 }  // namespace fastball::model

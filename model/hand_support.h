@@ -36,7 +36,7 @@ HandSupport handSupport(const Arm& arm,
 /// The deviation of the hand from its plan, through time.
 class SupportedHand {
  public:
-  /// @param support null: nothing gives way.
+  /// @param support must outlive this; null: nothing gives way.
   explicit SupportedHand(const HandSupport* support);
   /// Advances by dt [s] under what acts on the hand beyond what the plan has reckoned with, in H.
   void step(const HandWrench& load_H, const Eigen::Matrix3d& R_WH, double dt);

@@ -16,6 +16,7 @@ using LandingBiases = Eigen::Matrix<double, kLandingBiases, 1>;
 using LandingJacobian = Eigen::Matrix<double, 2, kLandingBiases>;
 
 /// How the biases move the landing of a ball that leaves so; central differences of the flight.
+/// @param gravity [m/s^2], along -z of the world.
 /// @throw std::invalid_argument if it does not reach the target's plane.
 LandingJacobian landingJacobian(const BallState& release,
                                 const Target& target,

@@ -38,8 +38,12 @@ struct Departure {
 /// 60 ms before the command at rest in the hand, so that all have found their balance under the grip, gravity and the hand's
 /// acceleration when the fingers begin to let go.
 /// @param hand_at the hand's planned motion t [s] after the command, asked for from t = -0.06 s on.
+/// @param gravity [m/s^2], along -z of the world.
 /// @param support what gives way when fingers and ball push the hand away from its plan; null: nothing.
-/// @param watch_time [s] after the departure, in which the ball is watched: whether finger or palm touches it again.
+/// @param time_step [s]. @param max_time [s] after the command: a ball that has not left by then
+/// stays.
+/// @param watch_time [s] after the departure, in which the ball is watched: whether finger or palm
+/// touches it again.
 /// @throw std::invalid_argument if the grip is more than the ball can carry or does not fit the hand (see grasp()), or if mass
 /// or time step are not positive.
 Departure predictDeparture(const BallParameters& ball,

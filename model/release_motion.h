@@ -61,6 +61,7 @@ class ReleaseMotion {
  public:
   ReleaseMotion() = default;
   /// @param grasp what the hand holds; its joint torques are the feed-forward.
+  /// @throw std::invalid_argument if the fingers cannot open to settings.open_distance.
   ReleaseMotion(const Hand& hand,
                 const GraspGeometry& grasp,
                 const ReleaseSettings& settings,

@@ -35,8 +35,8 @@ struct RollingSample {
 /// A motion on the fingers until the ball leaves them.
 struct RollingMotion {
   std::vector<RollingSample> samples;  ///< at whole multiples of the sample step, and at the end
-  bool released = false;               ///< the normal force came to zero; false: still on at t_end
-  bool rolled_off = false;             ///< released at the fingertips instead
+  bool released = false;               ///< the ball has left; false: still on at t_end
+  bool rolled_off = false;             ///< at the fingertips, before the normal force came to zero
   double t_release = 0;                ///< [s], or t_end
   double t_slip = -1;                  ///< [s], first slip; negative: none
   BallState ball;                      ///< at t_release, in the world; Eq. (23)
@@ -50,7 +50,8 @@ struct RollingMotion {
 /// while the friction that this needs is at most mu F'y / cos beta, the fingers' normal forces together; then it slides, until
 /// it rolls again or F'y comes to zero. Rolling does not last until then, because the friction it needs stays. Air drag adds to
 /// g'. The force that keeps z' zero is not counted against the friction.
-/// @throw std::invalid_argument if mass, radius, friction, sample step or tolerance make no sense.
+/// @throw std::invalid_argument if mass, radius, friction, sample step or tolerance make no sense,
+/// or the ball falls through between the fingers; std::runtime_error as integrateToEvent().
 RollingMotion rollOnFingers(const BallParameters& ball,
                             const FingerPair& fingers,
                             const HandPath& hand_at,
@@ -62,7 +63,7 @@ Eigen::Vector3d releaseVelocity(const FingerFrameMotion& fingers,
                                 const Eigen::Vector3d& r_F,
                                 const Eigen::Vector3d& v_F);
 
-/// @throw std::invalid_argument as rollOnFingers().
+/// @throw std::invalid_argument if mass, radius, friction, sample step or tolerance make no sense.
 void requireRolling(const BallParameters& ball, const RollingTask& task);
 
 }  // namespace fastball::model

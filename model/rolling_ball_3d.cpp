@@ -1,7 +1,6 @@
 #include "model/rolling_ball_3d.h"
 
 #include <Eigen/QR>
-#include <cmath>
 
 #include "model/event_integration.h"
 
@@ -14,11 +13,6 @@ using Eigen::Vector3d;
 constexpr int kPlace = 0, kVelocity = 3, kSpin = 6, kEntries = 9;
 /// Sliding slower than this [m/s] is the beginning or the end of it.
 constexpr double kNoSlip = 1e-6;
-
-/// The hand's material points: velocity and acceleration in the world.
-Vector3d pointVelocity(const HandMotion& hand, const Vector3d& p_W) {
-  return hand.v_WH + hand.w_WH.cross(p_W - hand.X_WH.translation());
-}
 
 /// Where the ball touches one surface.
 struct Touch {

@@ -11,7 +11,7 @@ namespace fastball::model {
 /// On two round fingers it only rolls, whatever friction that takes, until F'y comes to zero: how two rigid fingers share the
 /// load, with any amount of squeeze between them, is not determined, and so is when one of them slips. The sum of their
 /// forces, which the samples have, is. model/elastic_ball.h knows each.
-/// @throw std::invalid_argument as rollOnFingers().
+/// @throw as rollOnFingers().
 RollingMotion rollOnFingers3d(const BallParameters& ball,
                               const FingerPair& fingers,
                               const HandPath& hand_at,

@@ -27,8 +27,8 @@ struct ExpBase {
   BaseValue at(double t) const;
 };
 
-/// Angles of the analogous swing model (section 2.6): upper arm at polar angle gamma and azimuth q1, forearm at polar angle
-/// gamma + q2 and azimuth q1 + q3.
+/// Angles [rad] of the analogous swing model (section 2.6) with their rates: upper arm at polar
+/// angle gamma and azimuth q1, forearm at polar angle gamma + q2 and azimuth q1 + q3.
 struct SwingAngles {
   Eigen::Vector3d q = Eigen::Vector3d::Zero(), qd = Eigen::Vector3d::Zero(),
                   qdd = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ struct SwingAngles {
 /// The elbow branch is chosen by `elbow_sign` (+1: J4 >= 0, -1: J4 <= 0); J3 is continuous from call to call if the previous
 /// value is given in `q3_near`. Singular where the forearm lies along the upper arm (J4 = 0).
 struct WamMotion {
-  Eigen::Vector4d q, qd, qdd;
+  Eigen::Vector4d q, qd, qdd;  ///< [rad], [rad/s], [rad/s^2]
 };
 WamMotion wamFromSwing(const SwingAngles& swing, double gamma, int elbow_sign, double q3_near);
 /// The same with an upper arm whose polar angle moves.

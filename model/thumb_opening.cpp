@@ -1,7 +1,6 @@
 #include "model/thumb_opening.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fastball::model {
 

@@ -58,4 +58,12 @@ ArmMotion SampledTrajectory::at(double t) const {
   return motion;
 }
 
+bool operator==(const SampledTrajectory& a, const SampledTrajectory& b) {
+  return a.dt() == b.dt() &&
+         std::equal(a.samples().begin(), a.samples().end(), b.samples().begin(), b.samples().end(),
+                    [](const ArmMotion& x, const ArmMotion& y) {
+                      return x.q == y.q && x.qd == y.qd && x.qdd == y.qdd;
+                    });
+}
+
 }  // namespace fastball::model

@@ -20,15 +20,17 @@ class SampledTrajectory {
   SampledTrajectory() = default;
   /// @throw std::invalid_argument unless dt > 0 and there are at least two samples.
   SampledTrajectory(double dt, std::vector<ArmMotion> samples);
-  double duration() const;
-  /// No allocation, no exception; t [s] may lie outside.
+  double duration() const;  ///< [s]
+  /// Does not allocate or throw; t [s] may lie outside. Without samples all zero.
   ArmMotion at(double t) const;
-  double dt() const { return dt_; }
+  double dt() const { return dt_; }  ///< [s]
   const std::vector<ArmMotion>& samples() const { return samples_; }
 
  private:
   double dt_ = 0;
   std::vector<ArmMotion> samples_;
 };
+/// The same samples to the last digit.
+bool operator==(const SampledTrajectory& a, const SampledTrajectory& b);
 
 }  // namespace fastball::model

@@ -85,6 +85,7 @@ struct AtlasLayer {
 class Atlas {
  public:
   Atlas() = default;
+  /// @param layers each with as many nodes as the grid.
   Atlas(const AtlasGrid& grid, std::vector<AtlasLayer> layers);
 
   const AtlasGrid& grid() const { return grid_; }
@@ -94,8 +95,10 @@ class Atlas {
   /// Whether a throw inside the limits leads to a node.
   bool holdsThrow(int node) const;
 
-  /// Throws from the nodes around a target: of each layer of that kind, for each sort of throw at these nodes one. It is
-  /// interpolated if all four nodes are alike (or three, which then define a plane), else it is that of the nearest node.
+  /// Throws from the nodes around a target at that horizontal distance and height [m]: of each
+  /// layer of that kind, for each sort of throw at these nodes one. It is interpolated if all four
+  /// nodes are alike (or three, which then define a plane), else it is that of the nearest node.
+  /// Beyond the grid as at its border.
   std::vector<AtlasThrow> near(double distance, double height, ThrowKind kind) const;
 
  private:

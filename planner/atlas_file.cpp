@@ -162,19 +162,7 @@ AtlasLayer layerFrom(const json& object, int nodes) {
   return layer;
 }
 
-}  // namespace
-
-fs::path atlasFolder() {
-  // Read before any thread is started.
-  const char* cache = std::getenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe)
-  if (cache != nullptr && *cache != '\0')
-    return fs::path(cache) / "fastball";
-  const char* home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe)
-  if (home != nullptr && *home != '\0')
-    return fs::path(home) / ".cache" / "fastball";
-  return {};
-}
-
+/// All that an atlas depends on.
 json atlasKey(const PlannerConfig& config) {
   const ThrowErrors& errors = config.robust.errors;
   return {
@@ -198,6 +186,19 @@ json atlasKey(const PlannerConfig& config) {
         {"wanted_speed", config.robust.wanted_speed},
         {"errors", {errors.joint_speed, errors.grasp, errors.drag}}}},
       {"grid", {toJson(config.atlas.distance), toJson(config.atlas.height), config.atlas.step}}};
+}
+
+}  // namespace
+
+fs::path atlasFolder() {
+  // Read before any thread is started.
+  const char* cache = std::getenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe)
+  if (cache != nullptr && *cache != '\0')
+    return fs::path(cache) / "fastball";
+  const char* home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe)
+  if (home != nullptr && *home != '\0')
+    return fs::path(home) / ".cache" / "fastball";
+  return {};
 }
 
 fs::path atlasPath(const PlannerConfig& config, const fs::path& folder) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -13,10 +12,8 @@ namespace fastball::planner {
 /// Where atlases are kept: fastball/ in $XDG_CACHE_HOME, else in ~/.cache; empty if there is no such place.
 std::filesystem::path atlasFolder();
 
-/// All that an atlas depends on: arm and limits, hand, ball, the planner's settings, the version of the format.
-nlohmann::json atlasKey(const PlannerConfig& config);
-
-/// The file of a configuration's atlas, named by the arm's profile and a hash of the key.
+/// The file of a configuration's atlas, named by the arm's profile and a hash of all that it
+/// depends on: arm and limits, hand, ball, the planner's settings, the version of the format.
 std::filesystem::path atlasPath(const PlannerConfig& config, const std::filesystem::path& folder);
 
 /// What was found at the place of an atlas.
@@ -24,6 +21,7 @@ struct FoundAtlas {
   std::optional<Atlas> atlas;
   std::string fault;  ///< one sentence if there is a file that is no atlas for the configuration
 };
+/// Neither atlas nor fault if there is no file at `path`.
 FoundAtlas loadAtlas(const PlannerConfig& config, const std::filesystem::path& path);
 
 /// Writes the file whole or not at all: others that read or write it meanwhile see the old one or the new one. The

@@ -1,7 +1,6 @@
 #include "planner/atlas_layer_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace fastball::planner {

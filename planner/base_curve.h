@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 #include "model/swing.h"
 
@@ -18,7 +17,8 @@ struct ShapeValue {
 
 /// sin, entered from rest after its t_s; its t_e is not looked at.
 ShapeValue sinShape(double phase);
-/// e^phase, entered from rest, and 2 - e^-phase after phase 0: there omega changes its sign. The change is spread over some phase.
+/// e^phase, entered from rest, and 2 - e^-phase after phase 0: there omega changes its sign. The
+/// change is spread over some phase.
 ShapeValue expShape(double phase);
 
 /// One base function in time.
@@ -30,6 +30,7 @@ class BaseCurve {
   explicit BaseCurve(const model::ExpBase& base);
   /// [s], at rest before.
   double begin() const;
+  /// At t [s].
   model::BaseValue at(double t) const;
 
   /// Derivatives by the four parameters in the order of SinBase and ExpBase: amplitude, omega, phase or switching time, c.

@@ -11,7 +11,7 @@
 
 namespace fastball::planner {
 
-/// Of the strategy `robust`.
+/// Of throws through a release window.
 struct RobustSettings {
   std::vector<double> window_lengths;  ///< [s], in the order in which they are tried
   double limit_share = 0;              ///< of speed and torque limits, used by the optimisation
@@ -38,7 +38,7 @@ struct PlannerConfig {
   int random_starts = 0;           ///< where the stored ones find no throw
   int max_evaluations = 0;         ///< of each optimisation
   double landing_tolerance = 0;    ///< [m], predicted landing from the target's centre
-  double floor = 0;                ///< [m], world z
+  double floor = 0;                ///< [m], world z: a target below it is refused
   double grip_force = 0;           ///< [N], of the thumb, through the swing
   model::ReleaseSettings release;  ///< the hand server's
   model::SupportVector support_kp = model::SupportVector::Zero();  ///< [N m/rad], of arm and wrist
@@ -47,6 +47,8 @@ struct PlannerConfig {
   AtlasSettings atlas;
 };
 
+/// Reads the experiment file at `path`: the shared part, the section `planner`, and of
+/// `hand_server` and `controller` what predicting them takes.
 /// @throw config::ConfigError
 PlannerConfig loadConfig(const std::string& path);
 

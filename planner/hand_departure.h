@@ -26,7 +26,9 @@ HandDeparture seenFromHand(const PlannerConfig& config,
                            const WholeMotion& motion,
                            const ReleasePrediction& prediction);
 
-/// The throw of a motion whose ball leaves the hand like that; nothing if it does not reach the target's plane.
+/// The throw of a motion whose ball leaves the hand like that; nothing if it does not reach the
+/// target's plane.
+/// @param t_command [s], time of the motion.
 std::optional<ReleasePrediction> predictByDeparture(const PlannerConfig& config,
                                                     const model::Arm& arm,
                                                     const HandDeparture& departure,

@@ -20,7 +20,8 @@ struct ThrowDirection {
       wrist;  ///< put y of H there, so that Eq. (25) holds: the ball does not move along x or z of H
   double speed = 0;  ///< [m/s], of the ball in the hand so turned
 };
-/// The wrist moves the ball, and with it the velocity: solved by iteration.
+/// Of the hand that the arm's motion carries along. The wrist moves the ball, and with it the
+/// velocity: solved by iteration.
 ThrowDirection throwDirection(const model::Arm& arm,
                               const model::Hand& hand,
                               const model::ArmMotion& motion);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/swing_limits.h"
+
 namespace fastball::planner {
 namespace {
 
@@ -56,18 +58,6 @@ std::string outOfRange(const Worst& worst, const model::ArmParameters& limits) {
       "{:.3g} rad",
       joint + 1, worst.at[joint], worst.time, limits.q_min[joint], limits.q_max[joint],
       limits.position_margin);
-}
-
-/// Rows: what the drives do, as shares of their limits, by what the joints do. |a| + |b| <= 1 is |a + b| <= 1 and |a - b| <= 1,
-/// and these have no kink.
-Eigen::Matrix4d driveShares(const Eigen::Vector4d& limit, bool differential) {
-  Eigen::Matrix4d shares = limit.cwiseInverse().asDiagonal();
-  if (differential) {
-    shares(1, 2) = shares(2, 2);
-    shares(2, 1) = shares(1, 1);
-    shares(2, 2) = -shares(2, 2);
-  }
-  return shares;
 }
 
 /// What a trajectory asks of the arm at most.
@@ -169,7 +159,7 @@ LimitUse checkLimits(const model::Arm& arm, const model::SampledTrajectory& traj
   const model::ArmParameters& limits = arm.parameters();
   Use worst(arm, trajectory);
   worst.look();
-  LimitUse use{-worst.position.value, worst.speed.value, worst.torque.value, {}};
+  LimitUse use{worst.speed.value, worst.torque.value, {}};
   if (!(worst.position.value <= kRounding)) {
     use.violation = outOfRange(worst.position, limits);
   } else if (!(worst.speed.value <= 1 + kRounding)) {

@@ -6,8 +6,10 @@
 
 namespace fastball::planner {
 
-/// The least speed [m/s] with which a ball can leave a point within `reach` [m] of the origin and reach the
-/// target's centre, with drag; nothing if no speed up to 100 m/s does.
+/// About the least speed [m/s] with which a ball can leave the sphere of radius `reach` [m] about
+/// the shoulder and reach the target's centre, with drag [1/m] and gravity [m/s^2]: of places 20
+/// and directions 5 degrees apart in the vertical plane through shoulder and target. Nothing if no
+/// speed up to 100 m/s does.
 std::optional<double> neededSpeed(const model::Target& target,
                                   double reach,
                                   double drag_per_metre,

@@ -25,8 +25,9 @@ struct ThrowRequest {
   model::LandingBiases biases = model::LandingBiases::Zero();
 };
 
-/// Whether throws of a strategy go through a release window where there is one: `robust`; `tactile`, the same
-/// plan with a hand that learns; `adaptive`, that with an aim that learns.
+/// Whether throws of a strategy go through a release window where there is one: `robust`;
+/// `tactile`, the same plan with a hand that feels and learns; `adaptive`, that with an aim that
+/// learns.
 inline bool seeksWindow(const std::string& strategy) {
   return strategy == "robust" || strategy == "tactile" || strategy == "adaptive";
 }
@@ -43,6 +44,7 @@ struct Plan {
   double t_swing_end = 0;        ///< follow-through begins
   double t_release_command = 0;  ///< whole millisecond
   double t_release = 0;          ///< the ball is predicted to leave
+  /// In which the ball may leave. Of a swing without a window: t_release, as well as it is known.
   std::array<double, 2> release_window{};
   double residual_acceleration = 0;  ///< [m/s^2], hand minus free ball, largest in the window
   model::BallState release;          ///< ball just after it has left

@@ -1,8 +1,6 @@
 #include "planner/planned_throws.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "planner/limit_check.h"
 #include "planner/swing_planner.h"

@@ -14,9 +14,10 @@
 
 namespace fastball::planner {
 
-/// Plans throws. Strategy `paper`: the kinetic chain. Strategy `robust`: through a release window where one is
-/// within reach, else the kinetic chain with joint 2 and the shortest flight. From an atlas where there is one,
-/// else from the stored starts. Answers depend on the request and the atlas alone.
+/// Plans throws. Strategy `paper`: the kinetic chain. The others (seeksWindow()): through a release
+/// window where one is within reach, else the kinetic chain with joint 2 and the shortest flight.
+/// From an atlas where there is one, else from the stored starts. Answers depend on configuration,
+/// request and atlas alone.
 class Planner {
  public:
   /// @param departure how the ball leaves the hand; default: elastic, with the configuration's fingers.
@@ -27,14 +28,16 @@ class Planner {
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
-  /// A plan inside all limits on a grid of 0.1 ms whose predicted landing is at the target's centre, or why there is none.
+  /// A plan that checkLimits() finds inside all limits and whose predicted landing is at the
+  /// target's centre (within PlannerConfig::landing_tolerance), or why there is none. The request's
+  /// biases are planAimed()'s.
   PlanResult plan(const ThrowRequest& request) const;
-  /// The same from the atlas alone, of any kind; nothing if no throw in it leads to one in a few steps.
-  std::optional<Plan> fromAtlas(const ThrowRequest& request) const;
   const PlannerConfig& config() const { return config_; }
   const model::Arm& arm() const { return arm_; }
 
  private:
+  /// From the atlas alone, of any kind; nothing if no throw in it leads to one in a few steps.
+  std::optional<Plan> fromAtlas(const ThrowRequest& request) const;
   std::vector<ThrowKind> kindsFor(const std::string& strategy) const;
   struct Candidate;
   /// Throws of the atlas seen from the target's azimuth, the most promising first.

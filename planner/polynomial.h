@@ -4,7 +4,8 @@
 
 namespace fastball::planner {
 
-/// The quintic that goes from `a` at time 0 to `b` at time T > 0 [s], with speeds and accelerations, at time t.
+/// The quintic that goes from `a` at time 0 to `b` at time T > 0 [s], with speeds and
+/// accelerations, at time t; before and after it goes on.
 model::BaseValue quinticAt(const model::BaseValue& a,
                            const model::BaseValue& b,
                            double T,

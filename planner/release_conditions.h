@@ -25,12 +25,15 @@ class ReleaseConditions {
     /// front of the target plane, to the right and up in it.
     Eigen::Matrix<double, kEqualities, 1> equalities;
   };
+  /// By the parameters of the swing.
   struct Gradients {
     SwingVector speed, hand_lead, grazing;
     Eigen::Matrix<double, kEqualities, kSwingVariables, Eigen::RowMajor> equalities;
   };
 
+  /// @param task must outlive this.
   explicit ReleaseConditions(const SwingTask& task) : task_(task) {}
+  /// @param x parameters of the swing. @param motion that they make at t = 0.
   Values values(const SwingVector& x, const model::ArmMotion& motion) const;
   Gradients gradients(const SwingVector& x, const SwingDerivatives& at_release) const;
 

@@ -36,10 +36,12 @@ struct ReleasePrediction {
 /// Predicts the throw that a motion makes, for one configuration.
 class ReleasePredictor {
  public:
+  /// @param config, arm must outlive this.
   ReleasePredictor(const PlannerConfig& config, const model::Arm& arm, PredictDeparture departure);
 
-  /// The throw when the hand is told to let go at t_command; nothing if the ball does not leave, the hand touches it again within
-  /// 150 ms, or it does not reach the plane.
+  /// The throw when the hand is told to let go at t_command [s], time of the motion; nothing if the
+  /// swing loses the ball before, the ball does not leave, the hand touches it again within 150 ms,
+  /// or it does not reach the plane.
   std::optional<ReleasePrediction> predict(const WholeMotion& motion,
                                            const WristAngles& wrist,
                                            const model::Target& target,
@@ -48,12 +50,14 @@ class ReleasePredictor {
   std::optional<ReleasePrediction> predict(const WholeMotion& motion,
                                            const model::Target& target,
                                            double t_command) const;
-  /// The whole millisecond at which to let go: an abrupt thumb begins to move when Eq. (24) comes true near the swing's t = 0,
-  /// slower modes begin as much earlier as they take longer.
+  /// The whole millisecond [s], time of the motion, at which to let go: an abrupt thumb begins to
+  /// move when Eq. (24) comes true near the swing's t = 0, slower modes begin as much earlier as
+  /// they take longer.
   double commandTime(const WholeMotion& motion) const;
-  /// The whole millisecond at which to let go in a release window, so that the ball leaves in its middle.
+  /// The same in a release window: so that the ball leaves in its middle.
   double windowCommandTime(const WholeMotion& motion) const;
-  /// Largest |hand acceleration - free ball acceleration| [m/s^2] between two times.
+  /// Largest |acceleration of the hand's ball point - that of a free ball| [m/s^2] at eleven times
+  /// between two [s].
   double residualAcceleration(const model::SampledTrajectory& trajectory,
                               const WristAngles& wrist,
                               double from,

@@ -56,9 +56,11 @@ struct WindowSlopes {
       Eigen::Matrix<double, 1, kWindowParameters>::Zero();  ///< at the end
 };
 
+/// The path by Runge-Kutta 4, the joints on it by Newton's method.
 /// @param steps at least 1, of equal length h.
 /// @param slopes null if not wanted.
-/// @return false if the arm cannot follow: out of reach, or its Jacobian of joints 1, 2, 4 singular.
+/// @return false if the arm cannot follow: out of reach, its Jacobian of joints 1, 2, 4 singular,
+/// or less than 10 ms to go.
 bool windowMotion(const WindowTask& task,
                   const ReleaseWindow& window,
                   int steps,

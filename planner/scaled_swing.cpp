@@ -76,7 +76,6 @@ const ScaledSwing::Values& ScaledSwing::values(const double* u) {
     return values_;
   known_.assign(u, u + free_.size());
   has_gradients_ = false;
-  ++looks_;
   x_ = parameters(u);
   problem_values_ = problem_.evaluate(x_);
   values_.release_speed = problem_values_.release_speed;
@@ -93,7 +92,6 @@ const ScaledSwing::Gradients& ScaledSwing::gradients(const double* u) {
   if (has_gradients_)
     return gradients_;
   has_gradients_ = true;
-  ++evaluations_;
   problem_gradients_ = problem_.gradients(x_, problem_values_);
   gradients_.release_speed =
       carried(problem_gradients_.release_speed.transpose().eval(), 0, 1).row(0);

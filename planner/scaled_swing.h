@@ -9,8 +9,9 @@
 
 namespace fastball::planner {
 
-/// A SwingProblem as an optimiser sees it. Its variables u are the free coordinates (coordinatesOf) over their typical sizes. The
-/// wrist's angles are none of them: they follow from the motion by Eq. (25), and derivatives by them are carried over to the others.
+/// A SwingProblem as an optimiser sees it. Its variables u are the free coordinates (coordinatesOf)
+/// over their typical sizes. The wrist's angles are none of them: they follow from the motion by
+/// Eq. (25), and derivatives by them are carried over to the others.
 class ScaledSwing {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -30,6 +31,7 @@ class ScaledSwing {
     Matrix inequalities, equalities;
   };
 
+  /// @param problem must outlive this.
   /// @param rest parameters; those which are not free keep their value.
   ScaledSwing(const SwingProblem& problem, const SwingVector& rest);
 
@@ -46,10 +48,8 @@ class ScaledSwing {
   /// Both remember the last point asked about: NLopt asks for objective and constraints one after another.
   const Values& values(const double* u);
   const Gradients& gradients(const double* u);
-  /// How often values and gradients were computed.
-  int looks() const { return looks_; }
-  int evaluations() const { return evaluations_; }
 
+  /// The parameters of Eq. (12) at u, the wrist's angles by Eq. (25).
   SwingVector parameters(const double* u) const;
 
  private:
@@ -68,7 +68,6 @@ class ScaledSwing {
   Values values_;
   Gradients gradients_;
   bool has_gradients_ = false;
-  int looks_ = 0, evaluations_ = 0;
 };
 
 }  // namespace fastball::planner

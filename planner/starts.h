@@ -12,7 +12,7 @@ namespace fastball::planner {
 struct Start {
   const char* name;
   SwingVector x;
-  int elbow_sign;
+  int elbow_sign;  ///< +1: J4 > 0, -1: J4 < 0
 };
 
 /// The stored starts for a target at `azimuth` [rad] from the x axis.

@@ -12,6 +12,7 @@ namespace fastball::planner {
 
 /// Decision variables of Eq. (15). Time is counted from the release (t = 0): a common shift of all phases is no
 /// freedom. The first sixteen are the parameters of four base functions.
+/// Angles [rad], omegas [rad/s] (of the exp function [1/s]), the switching time [s].
 enum SwingVariable {
   kAlpha1,
   kOmega1,
@@ -56,7 +57,7 @@ class SwingCurve {
   SwingCurve(const SwingVector& x, int elbow_sign);
   /// [s] (negative), the arm rests before.
   double begin() const;
-  /// @param q3_near J3 is the angle (of those 2 pi apart) next to this one.
+  /// At t [s]. @param q3_near [rad]: J3 is the angle (of those 2 pi apart) next to this one.
   model::ArmMotion at(double t, double q3_near = 0) const;
   SwingDerivatives derivativesAt(double t, double q3_near = 0) const;
 

@@ -13,7 +13,12 @@ constexpr double kReserve = 1e-4;
 // [m], world: the column ends a little above the shoulder.
 constexpr double kColumnTop = 0.1;
 
-/// Row i: what drive i does, as shares of its limit, by what the joints do.
+double signOf(double x) {
+  return x < 0 ? -1 : 1;
+}
+
+}  // namespace
+
 Eigen::Matrix4d driveShares(const Eigen::Vector4d& limit, bool differential) {
   Eigen::Matrix4d shares = limit.cwiseInverse().asDiagonal();
   if (differential) {
@@ -23,12 +28,6 @@ Eigen::Matrix4d driveShares(const Eigen::Vector4d& limit, bool differential) {
   }
   return shares;
 }
-
-double signOf(double x) {
-  return x < 0 ? -1 : 1;
-}
-
-}  // namespace
 
 SwingLimits::SwingLimits(const SwingTask& task, int elbow_sign)
     : arm_(*task.arm), settings_(task.settings), elbow_sign_(elbow_sign) {

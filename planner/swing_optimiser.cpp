@@ -254,7 +254,6 @@ SwingSolution solutionAt(const SwingProblem& problem,
   const SwingProblem::Values values = problem.evaluate(solution.x);
   solution.release_speed = values.release_speed;
   solution.violation = values.violation();
-  solution.evaluations = swing.evaluations();
   return solution;
 }
 
@@ -263,7 +262,7 @@ bool isFinite(const std::vector<double>& u) {
 }
 
 SwingSolution unsolved(const SwingVector& start, int elbow_sign) {
-  return {start, elbow_sign, 0, std::numeric_limits<double>::infinity(), 0};
+  return {start, elbow_sign, 0, std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr double kTightened = 0.9995;
 constexpr double kAlikeMiss = 3e-3;
 // Solutions tried before giving up.
 constexpr std::size_t kCandidates = 3;
-// Of the limits, if the grid of 1 ms finds more than the optimiser's samples did.
+// Of the limits, if checkLimits() finds more than the optimiser's samples did.
 constexpr double kTightening[] = {1, 0.98, 0.96};
 // [s], either side of the predicted release: how well the time of an abrupt release is known.
 constexpr double kWindow = 1e-3;
@@ -166,7 +166,7 @@ std::variant<SwingPlanner::Aimed, Refusal> SwingPlanner::aim(SwingTask task,
           "it"};
     miss = prediction->landing.landing.norm();
     if (miss <= config_.landing_tolerance)
-      return Aimed{solution, task.aim, std::move(motion), *prediction};
+      return Aimed{solution, std::move(motion), *prediction};
     // What the fingers do to the ball hardly depends on the aim: shift it by the miss, and the steepness likewise.
     task.aim -= prediction->landing.landing;
     if (round == 0)
@@ -305,7 +305,7 @@ std::optional<Plan> SwingPlanner::planNear(const ThrowRequest& request,
       return {};
     const LimitUse use = checkLimits(arm_, motion.trajectory);
     if (!use.violation)
-      return assemble({solution, task.aim, std::move(motion), *prediction}, request);
+      return assemble({solution, std::move(motion), *prediction}, request);
     const double excess = std::max(use.speed_ratio, use.torque_ratio);
     if (excess <= 1)
       return {};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -32,6 +31,7 @@ class SwingPlanner {
                const ReleasePredictor& predictor);
 
   /// The best throw found, or what hinders it.
+  /// @param shoulders tried one after the other; random starts only with the last.
   PlanResult plan(const ThrowRequest& request,
                   const std::vector<Shoulder>& shoulders,
                   SwingGoal goal = SwingGoal::kFastest) const;
@@ -43,27 +43,26 @@ class SwingPlanner {
                                Shoulder shoulder,
                                SwingGoal goal = SwingGoal::kFastest) const;
 
-  /// A swing whose ball is predicted to land where it shall.
-  struct Aimed {
-    SwingSolution solution;
-    Eigen::Vector2d aim = Eigen::Vector2d::Zero();  ///< [m], in the target's plane
-    WholeMotion motion;
-    ReleasePrediction prediction;
-  };
   /// @param q_arm where the arm rests; nothing: where the swing begins.
   WholeMotion motionOf(const SwingSolution& solution,
                        const std::optional<Eigen::Vector4d>& q_arm) const;
   SwingTask taskFor(const ThrowRequest& request,
                     Shoulder shoulder,
                     SwingGoal goal = SwingGoal::kFastest) const;
-  std::variant<Aimed, Refusal> aim(SwingTask task,
-                                   SwingSolution solution,
-                                   const ThrowRequest& request) const;
-  Plan assemble(const Aimed& aimed, const ThrowRequest& request) const;
   /// The fastest throw of all from the stored starts, wherever it goes.
   SwingSolution fastest(const ThrowRequest& request, Shoulder shoulder) const;
 
  private:
+  /// A swing whose ball is predicted to land where it shall.
+  struct Aimed {
+    SwingSolution solution;
+    WholeMotion motion;
+    ReleasePrediction prediction;
+  };
+  std::variant<Aimed, Refusal> aim(SwingTask task,
+                                   SwingSolution solution,
+                                   const ThrowRequest& request) const;
+  Plan assemble(const Aimed& aimed, const ThrowRequest& request) const;
   /// From the stored starts; if none leads to a throw that keeps all constraints, `thoroughly`: from random ones, and harder.
   std::vector<SwingSolution> search(const SwingTask& task,
                                     const ThrowRequest& request,

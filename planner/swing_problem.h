@@ -106,7 +106,6 @@ struct SwingSolution {
   int elbow_sign = 1;
   double release_speed = 0;  ///< [m/s]
   double violation = 0;      ///< of the constraints, as SwingProblem states them
-  int evaluations = 0;
 };
 
 /// NLopt's SLSQP from `start`, at most `max_evaluations` evaluations of the problem.

@@ -38,7 +38,7 @@ struct SwingSettings {
   FollowThrough follow;
 };
 
-/// One throw to be optimised by Eq. (15).
+/// One throw to be optimised by Eq. (15); `arm` and `hand` must outlive it.
 struct SwingTask {
   const model::Arm* arm = nullptr;
   const model::Hand* hand = nullptr;
@@ -48,7 +48,8 @@ struct SwingTask {
   SwingSettings settings;
   SwingGoal goal = SwingGoal::kFastest;
   double limit_factor = 1;  ///< the share of speed and torque limits that may be used
-  /// Sine of the angle at which the ball comes through the ring, at least: what is asked, and a little for what the fingers change.
+  /// Sine of the angle at which the ball comes through the ring, at least: what is asked, and a
+  /// little for what the fingers change.
   double steepness = kLeastSteepness + 0.005;
   bool must_land = true;  ///< false: fastest throw of all, wherever it goes
   double grid_density =

@@ -20,7 +20,7 @@ struct MotionSettings {
 /// A throw from rest to rest.
 struct WholeMotion {
   model::SampledTrajectory trajectory;
-  double t_ready = 0, t_swing = 0, t_swing_end = 0;  ///< [s] from the start
+  double t_ready = 0, t_swing = 0, t_swing_end = 0;  ///< [s] from the start, as Plan has them
   double t_zero = 0;  ///< [s], time of the swing's t = 0, a sample; a release window begins there
   double window = 0;  ///< [s], length of the release window, 0: none
 };
@@ -34,7 +34,7 @@ struct SwingMotion {
   std::function<model::ArmMotion(double t)> at;  ///< asked for in order of time
 };
 
-/// Approach from q_arm (quintic), rest, swing, braking.
+/// Approach from q_arm [rad] (quintic), rest, swing, braking (quartics).
 WholeMotion wholeMotion(const model::Arm& arm,
                         const MotionSettings& settings,
                         const Eigen::Vector4d& q_arm,

@@ -244,9 +244,7 @@ void WindowCost::addErrors(const WindowThrow& x, Sum& sum) {
   }
   ByWindowRow T_slope = ByWindowRow::Zero();
   T_slope[kTimeToGo] = 1;
-  double variance = 0;
   const auto add = [&](double deviation, const ByWindowRow& slope) {
-    variance += square(deviation);
     sum.add(deviation / kErrorScale, byThrow(slope / kErrorScale));
   };
   for (int j = 0; j < model::kArmJoints; ++j) {
@@ -265,7 +263,6 @@ void WindowCost::addErrors(const WindowThrow& x, Sum& sum) {
   const double drag = problem_.errors.drag * task.drag_per_metre / 2;
   add(drag * v.squaredNorm() * T * T,
       drag * 2 * T * (T * v.transpose() * v_slope + v.squaredNorm() * T_slope));
-  landing_deviation_ = std::sqrt(variance);
 }
 
 void WindowCost::addNearness(const WindowVector& v, Sum& sum) {

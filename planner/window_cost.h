@@ -30,13 +30,13 @@ class WindowCost {
     void add(double row, const Slope& slope);
   };
 
+  /// @param problem must outlive this.
   explicit WindowCost(const WindowProblem& problem);
 
+  /// @param with_slopes else the sum has its value alone.
   Sum at(const WindowVector& x, bool with_slopes);
   /// Of the last x: how much it exceeds a limit at most, as a share of it (negative: room to all).
   double violation() const { return violation_; }
-  /// Of the last x: standard deviation [m] of the landing by the problem's errors.
-  double landingDeviation() const { return landing_deviation_; }
   /// Of the last x; without samples if the arm cannot follow.
   const WindowMotion& motion() const { return motion_; }
   int evaluations() const { return evaluations_; }
@@ -58,7 +58,7 @@ class WindowCost {
   HeldBall held_;
   WindowMotion motion_;
   WindowSlopes slopes_;
-  double violation_ = 0, landing_deviation_ = 0;
+  double violation_ = 0;
   int evaluations_ = 0;
 };
 

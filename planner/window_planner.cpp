@@ -108,10 +108,8 @@ WindowProblem WindowPlanner::problemFor(const ThrowRequest& request, const Windo
 std::optional<WindowSolution> WindowPlanner::solveFrom(const ThrowRequest& request,
                                                        const WindowKind& kind,
                                                        const WindowThrow& start,
-                                                       const Eigen::Vector3d& p_WGoal,
                                                        int max_evaluations) const {
   WindowProblem problem = problemFor(request, kind);
-  problem.task.p_WGoal = p_WGoal;
   WindowSolution solution = solveWindowThrow(problem, start, max_evaluations);
   if (solution.residual < kNearlyFree) {
     problem.free_flight = true;
@@ -142,7 +140,7 @@ std::optional<WindowSolution> WindowPlanner::solve(const ThrowRequest& request,
   for (const WindowSolution& contender : contenders) {
     if (!thoroughly && contender.cost > kHopeless)
       break;
-    const auto solution = solveFrom(request, kind, contender.x, p, kFarEvaluations);
+    const auto solution = solveFrom(request, kind, contender.x, kFarEvaluations);
     if (!solution)
       continue;
     const auto motion = motionOf(problem, request.q_arm, solution->x);
@@ -192,11 +190,9 @@ WristAngles WindowPlanner::wristOf(const WholeMotion& motion) const {
 
 std::optional<WindowPlanner::Settled> WindowPlanner::settle(const ThrowRequest& request,
                                                             const WindowKind& kind,
-                                                            const WindowThrow& start,
-                                                            const Eigen::Vector3d& aim) const {
+                                                            const WindowThrow& start) const {
   WindowProblem problem = problemFor(request, kind);
   problem.free_flight = start.window.pace.isZero();
-  problem.task.p_WGoal += aim;
   WindowThrow x = start;
   for (int round = 0; round < kAimRounds; ++round) {
     auto motion = motionOf(problem, request.q_arm, x);
@@ -210,10 +206,8 @@ std::optional<WindowPlanner::Settled> WindowPlanner::settle(const ThrowRequest& 
     bool slower = false;
     if (miss.norm() <= config_.landing_tolerance) {
       const LimitUse use = checkLimits(arm_, motion->trajectory);
-      if (!use.violation) {
-        return Settled{x, problem.task.p_WGoal - request.target.p_WTarget, std::move(*motion),
-                       *prediction};
-      }
+      if (!use.violation)
+        return Settled{x, std::move(*motion), *prediction};
       const double excess = std::max(use.speed_ratio, use.torque_ratio);
       if (excess <= 1)
         return {};
@@ -274,7 +268,7 @@ std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
         departs_alike = true;
       }
       if (!use.violation && landsRight(*prediction))
-        return assemble(request, Settled{x, near.aim, std::move(*motion), *prediction});
+        return assemble(request, Settled{x, std::move(*motion), *prediction});
       if (!use.violation)
         continue;
       if (excess <= 1)
@@ -292,7 +286,7 @@ std::optional<Plan> WindowPlanner::planNear(const ThrowRequest& request,
 }
 
 Plan WindowPlanner::assemble(const ThrowRequest& request, const Settled& settled) const {
-  const auto& [x, aim, motion, prediction] = settled;
+  const auto& [x, motion, prediction] = settled;
   Plan plan;
   plan.strategy = request.strategy;
   plan.trajectory = motion.trajectory;

@@ -17,8 +17,8 @@ struct WindowKind {
   double limit_share = 0;  ///< of speed and torque limits, for the optimisation
 };
 
-/// Plans throws through a release window (strategy `robust`): of the throws found, the one whose landing the errors of the
-/// configuration move least.
+/// Plans throws through a release window: of the throws found, the one whose landing the errors of
+/// the configuration move least.
 class WindowPlanner {
  public:
   /// Of the optimiser's sum of squares, what a second of approach is worth.
@@ -27,9 +27,6 @@ class WindowPlanner {
   WindowPlanner(const PlannerConfig& config,
                 const model::Arm& arm,
                 const ReleasePredictor& predictor);
-
-  /// In the order in which they are tried.
-  const std::vector<WindowKind>& kinds() const { return kinds_; }
 
   /// The best throw through the first kind of window for which there is one inside all limits; nothing if there is none for
   /// any.
@@ -40,42 +37,37 @@ class WindowPlanner {
   /// @param near seen from the target's azimuth.
   std::optional<Plan> planNear(const ThrowRequest& request, const AtlasThrow& near) const;
 
+  WindowProblem problemFor(const ThrowRequest& request, const WindowKind& kind) const;
+  /// Nothing if the arm cannot follow. @param q_arm where the arm rests; nothing: where the swing
+  /// begins.
+  std::optional<WholeMotion> motionOf(const WindowProblem& problem,
+                                      const std::optional<Eigen::Vector4d>& q_arm,
+                                      const WindowThrow& x) const;
+  /// Turns the thumb to where the ball flies and, as far as the hand falls behind it, to where it
+  /// drifts in the hand, both in the window's middle; no flexion.
+  WristAngles wristOf(const WholeMotion& motion) const;
+
+ private:
+  /// A solution aimed so that the ball, as the fingers let it go, lands at the target's centre.
+  struct Settled {
+    WindowThrow x;
+    WholeMotion motion;
+    ReleasePrediction prediction;
+  };
   /// The best throw for a kind of window.
   std::optional<WindowSolution> solve(const ThrowRequest& request,
                                       const WindowKind& kind,
                                       bool thoroughly) const;
-
-  /// The best throw near one start, for a target at `p_WGoal` [m] as the ball in the hand is aimed; nothing outside the limits.
+  /// The best throw near one start; nothing outside the limits.
   std::optional<WindowSolution> solveFrom(const ThrowRequest& request,
                                           const WindowKind& kind,
                                           const WindowThrow& start,
-                                          const Eigen::Vector3d& p_WGoal,
                                           int max_evaluations) const;
-
-  /// A solution aimed so that the ball, as the fingers let it go, lands at the target's centre.
-  struct Settled {
-    WindowThrow x;
-    Eigen::Vector3d aim =
-        Eigen::Vector3d::Zero();  ///< [m], goal of the ball in the hand less the target's centre
-    WholeMotion motion;
-    ReleasePrediction prediction;
-  };
   /// Nothing if it does not settle inside all limits.
-  /// @param aim where to begin [m].
   std::optional<Settled> settle(const ThrowRequest& request,
                                 const WindowKind& kind,
-                                const WindowThrow& x,
-                                const Eigen::Vector3d& aim = Eigen::Vector3d::Zero()) const;
+                                const WindowThrow& x) const;
   Plan assemble(const ThrowRequest& request, const Settled& settled) const;
-
-  WindowProblem problemFor(const ThrowRequest& request, const WindowKind& kind) const;
-  /// Nothing if the arm cannot follow. @param q_arm where the arm rests; nothing: where the swing begins.
-  std::optional<WholeMotion> motionOf(const WindowProblem& problem,
-                                      const std::optional<Eigen::Vector4d>& q_arm,
-                                      const WindowThrow& x) const;
-  WristAngles wristOf(const WholeMotion& motion) const;
-
- private:
   WindowKind kindOf(double length) const;
   bool landsRight(const ReleasePrediction& prediction) const;
 
@@ -85,7 +77,7 @@ class WindowPlanner {
       cautious_arm_;  ///< with more room to its stops, for what happens between the optimiser's samples
   model::Hand hand_;
   const ReleasePredictor& predictor_;
-  std::vector<WindowKind> kinds_;
+  std::vector<WindowKind> kinds_;  ///< in the order in which they are tried
 };
 
 }  // namespace fastball::planner

@@ -12,9 +12,10 @@ using ByThrow = Eigen::Matrix<double, 3 * model::kArmJoints, kWindowVariables>;
 /// their sign, and a run-up is a braking.
 class WindowSide {
  public:
+  /// @param x must outlive this. @param before the window, else after it.
   WindowSide(const WindowThrow& x, bool before) : x_(x), before_(before) {}
 
-  /// @param from motion at the window's edge. @param t [s] away from it.
+  /// @param from motion at the window's edge. @param t [s] away from it, at least 0.
   /// @param edge derivatives of `from`, or null; then `slope` is null too.
   model::ArmMotion at(const model::ArmMotion& from,
                       double t,

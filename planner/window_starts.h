@@ -8,6 +8,7 @@ namespace fastball::planner {
 
 /// Where an optimisation of a throw to a target at `azimuth` [rad] from the x axis begins: the stored throws, seen
 /// from there, and their mirror images.
+/// @param length [s], of the window.
 std::vector<WindowThrow> windowStarts(double azimuth, double length);
 
 /// The throw seen in a mirror: left and right exchanged.

@@ -21,9 +21,6 @@ WindowSolution solutionAt(const WindowVector& x, WindowCost& cost, double length
   solution.violation = cost.violation();
   solution.feasible = solution.violation <= kTolerance;
   solution.residual = cost.motion().residual;
-  solution.speed = cost.motion().ball.empty() ? 0 : cost.motion().ball.front().v_WBall.norm();
-  solution.landing_sd = cost.landingDeviation();
-  solution.evaluations = cost.evaluations();
   return solution;
 }
 

@@ -60,9 +60,6 @@ struct WindowSolution {
   double violation = 0;   ///< of the limits, largest, as a share of them
   double cost = 0;        ///< sum of squares, limits included
   double residual = 0;    ///< [m/s^2], largest |hand - free ball| acceleration in the window
-  double speed = 0;       ///< [m/s], at the window's begin
-  double landing_sd = 0;  ///< [m], of the errors together
-  int evaluations = 0;
 };
 
 /// Least squares from `start` by Levenberg-Marquardt.

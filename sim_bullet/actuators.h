@@ -6,19 +6,14 @@
 
 #include "model/arm.h"
 #include "model/hand.h"
+#include "model/joint_targets.h"
 #include "sim_bullet/arm_hand.h"
 #include "sim_bullet/config.h"
 
 namespace fastball::sim_bullet {
 
-/// What HAND_COMMAND asks of the hand's own servo, one entry a joint.
-struct HandCommand {
-  model::HandVector q = model::HandVector::Zero();    ///< [rad]
-  model::HandVector qd = model::HandVector::Zero();   ///< [rad/s]
-  model::HandVector tau = model::HandVector::Zero();  ///< [N m]
-  model::HandVector kp = model::HandVector::Zero();   ///< [N m/rad]
-  model::HandVector kd = model::HandVector::Zero();   ///< [N m s/rad]
-};
+/// What HAND_COMMAND asks of the hand's own servo.
+using HandCommand = model::JointTargets;
 
 /// Dead times [s] from a command to the servos of finger A, thumb and finger B.
 using FingerDelays = std::array<double, model::kFingers>;
@@ -31,7 +26,7 @@ class HandServo {
   /// @param dt physics step [s].
   HandServo(const model::HandParameters& hand, const FingerDelays& delays, double dt);
 
-  /// Torques [N m] for the coming step.
+  /// Torques [N m] for the coming step; q [rad], qd [rad/s] as they are.
   const model::HandVector& step(const HandCommand& command,
                                 const model::HandVector& q,
                                 const model::HandVector& qd);
@@ -60,6 +55,7 @@ class JointStops {
   JointStops(const model::ArmParameters& arm,
              const model::HandParameters& hand,
              const SimulationSettings& settings);
+  /// [N m]; q [rad], qd [rad/s].
   JointVectors torque(const JointVectors& q, const JointVectors& qd) const;
 
  private:

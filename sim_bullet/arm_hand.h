@@ -50,8 +50,8 @@ class ArmHand {
   btMultiBody& body();
   const LinkTree& tree() const { return tree_; }
 
+  /// [rad], [rad/s]; a frozen hand's joints stay as they were frozen.
   void setState(const JointVectors& q, const JointVectors& qd);
-  /// [rad]; a frozen hand's joints read as they were frozen.
   JointVectors q() const;
   JointVectors qd() const;
 
@@ -59,7 +59,7 @@ class ArmHand {
   void addTorques(const JointVectors& tau);
   /// Adds a force [N] at a point [m] of a link for the coming step, both in the world. Needs updateKinematics().
   void addForceAt(int link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& f_W);
-  /// Adds a torque [N m] on a link for the coming step.
+  /// Adds a torque [N m], in the world, on a link for the coming step.
   void addMoment(int link, const Eigen::Vector3d& m_W);
 
   /// Makes motion() current. Bullet's own cached poses are one step old after a step.
@@ -76,7 +76,8 @@ class ArmHand {
   /// @param qd_before velocities of the arm before the step [rad/s].
   void addDriveInertia(const Eigen::Vector4d& qd_before, double dt);
 
-  /// Kinetic energy of links and drives, and potential energy of the links [J] (zero at the shoulder's height).
+  /// Kinetic energy of links and drives, and potential energy of the links [J] (zero at the
+  /// shoulder's height); gravity [m/s^2].
   double energy(double gravity);
 
  private:

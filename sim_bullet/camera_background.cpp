@@ -1,6 +1,7 @@
 #include "sim_bullet/camera_background.h"
 
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 namespace fastball::sim_bullet {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -28,7 +26,8 @@ std::vector<RingPiece> ringPieces(const model::Camera& camera, const model::Targ
 /// Draws one piece; `origin` is the image's own corner in the full image.
 void drawRingPiece(const RingPiece& piece, const cv::Point& origin, cv::Mat& image);
 
-/// Draws the ring with the bag behind it, as wide as they are and blurred by lens and pixel. @param blur [px], standard deviation
+/// Draws the ring with the bag behind it, as wide as they are and blurred by lens and pixel; CV_8U.
+/// @param blur [px], standard deviation.
 void drawNet(const model::Camera& camera, const model::Target& target, double blur, cv::Mat& image);
 
 /// All that a camera needs to draw a frame; shared by the threads that draw, never changed.

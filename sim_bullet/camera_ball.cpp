@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace fastball::sim_bullet {
 namespace {

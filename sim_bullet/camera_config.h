@@ -26,7 +26,7 @@ struct CameraRigOptions {
   Eigen::Vector3d to_light_W = Eigen::Vector3d::UnitZ();  ///< unit vector towards the lamp
 };
 
-/// Camera frame at p_WCamera: z towards p_WLookAt, x horizontal to the right, y down.
+/// Camera frame at p_WCamera [m]: z towards p_WLookAt, x horizontal to the right, y down.
 /// @throw std::invalid_argument if the two points lie on one vertical line.
 void lookAt(const Eigen::Vector3d& p_WCamera,
             const Eigen::Vector3d& p_WLookAt,

@@ -27,7 +27,7 @@ struct RenderedImage {
 /// The noise of all images: one big field of 12.4 fixed-point normal numbers, read at a place drawn for each image.
 class NoiseField {
  public:
-  /// For images up to `size`; `sigma` [grey levels].
+  /// For images of `size`; `sigma` [grey levels].
   NoiseField(const cv::Size& size, double sigma);
   /// The part of the field for an image: CV_16S, in sixteenths of a grey level. The same for the same arguments.
   cv::Mat at(int64_t seed, int camera, int64_t frame) const;
@@ -52,7 +52,8 @@ struct Frame {
 /// Draws the frame: CV_8U. A pure function.
 cv::Mat drawFrame(const Frame& frame);
 
-/// Draws and compresses, at a lower quality if it would not fit a message (60000 bytes). A pure function.
+/// Draws and compresses, at a lower quality if it would not fit a message (60000 bytes). A pure
+/// function. @throw std::runtime_error if it does not fit at any quality.
 RenderedImage renderFrame(const Frame& frame);
 
 }  // namespace fastball::sim_bullet

@@ -4,7 +4,6 @@
 #include <deque>
 #include <future>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "model/arm_parameters.h"
@@ -21,6 +20,8 @@ namespace fastball::sim_bullet {
 /// draw them or how fast.
 class CameraRig {
  public:
+  /// @param ball_radius [m].
+  /// @throw std::invalid_argument without a camera.
   CameraRig(const CameraRigOptions& options,
             const model::ArmParameters& arm,
             const model::HandParameters& hand,
@@ -31,8 +32,8 @@ class CameraRig {
 
   const std::vector<RigCamera>& cameras() const { return options_.cameras; }
 
-  /// Begins a scene; images of the scene before that have not been fetched are dropped. Frames whose whole exposure lies in
-  /// [start_utime, end_utime] will be taken.
+  /// Begins a scene; images of the scene before that have not been fetched are dropped. Frames
+  /// whose whole exposure lies in [start_utime, end_utime] ([us], simulated) will be taken.
   void begin(int64_t scene_id,
              int64_t seed,
              int64_t start_utime,
@@ -41,7 +42,8 @@ class CameraRig {
   /// The scene at a later time than the call before (others are ignored); call every tick. Between two snapshots motion is
   /// interpolated linearly. May wait when the drawing threads are far behind.
   void add(const SceneSnapshot& snapshot);
-  /// The next image in order of time, then of camera, if it is ready. Does not wait.
+  /// The next image in order of time, then of camera; false if it is not ready. Does not wait.
+  /// @throw as renderFrame().
   bool nextImage(RenderedImage& image);
   /// Waits until every frame begun is ready.
   void flush();

@@ -34,7 +34,8 @@ class CommandWatch {
 
   /// Commands refused in this scene, or before the first.
   int64_t refused() const { return refused_; }
-  /// "refused 4 ARM_COMMANDs of a second sender; the first, of controller (process 12 on robot), has seq ...", renewed at the 1st, 2nd, 4th, 8th, ... of them; or empty.
+  /// "refused 4 ARM_COMMANDs of a second sender; the first, of controller (process 12 on robot),
+  /// has seq ...", renewed at the 1st, 2nd, 4th, 8th, ... of them; or empty.
   const std::string& sentence() const { return sentence_; }
 
  private:

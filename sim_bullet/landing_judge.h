@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "model/ball_flight.h"
@@ -36,17 +34,18 @@ struct JudgedStep {
 
 /// Decides when the ball is released, what touches it afterwards, and where it lands.
 ///
-/// Released: no part of the hand has touched the ball for 3 ms; the event carries time and state of the last touch. Landed:
-/// the centre crosses the target plane from the robot's side, interpolated in the step. A ball that meets the ring before
-/// its centre reaches the plane has landed where its free flight would have gone on to.
+/// Released: no part of the hand has touched the ball for 3 ms; the event carries time and state of
+/// the last touch. Landed: the centre crosses the target plane from its front, interpolated in the
+/// step. A ball that meets the ring before its centre reaches the plane has landed where its free
+/// flight would have gone on to; one that meets the floor before does not land.
 class LandingJudge {
  public:
+  /// @param drag_per_metre [1/m]. @param gravity [m/s^2].
   LandingJudge(const model::Target& target, double drag_per_metre, double gravity);
 
   /// Takes the next step; appends at most one event of each kind.
   void step(const JudgedStep& step, std::vector<SceneEvent>* events);
   bool released() const { return released_; }
-  bool landed() const { return landed_; }
 
  private:
   void watchHand(const JudgedStep& step, std::vector<SceneEvent>* events);

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "config/experiment.h"

@@ -28,7 +28,8 @@ class SceneCameras {
   void add(const SceneSnapshot& snapshot) { rig_->add(snapshot); }
   /// @param utime [us], simulated.
   void sayInfo(int64_t utime);
-  /// Says the images that are ready. Does not wait.
+  /// Says the images that are ready. Does not wait. @throw as CameraRig::nextImage(), here and
+  /// below.
   void sayImages();
   /// Waits for the last images, some ten of a few milliseconds each, and says them.
   void finish();

@@ -16,6 +16,7 @@ struct TickStamp {
   int64_t tick = 0;
 };
 
+/// The arm as its encoders read; the hand's joints as they are, its forces as they are felt.
 arm_state_t armState(const TickStamp& stamp, const RobotState& state);
 hand_state_t handState(const TickStamp& stamp, const RobotState& state);
 /// A SAMPLE or FINISHED of SIM_TRUTH.
@@ -36,6 +37,7 @@ landing_t curtainLanding(const TickStamp& stamp,
 camera_info_t cameraInfo(const RigCamera& camera, int64_t utime);
 image_t image(const RenderedImage& rendered);
 
+/// [N m].
 Eigen::Vector4d armTorque(const arm_command_t& message);
 HandCommand handCommand(const hand_command_t& message);
 SceneStart sceneStart(const scene_t& message);

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <random>
 #include <string>
-#include <vector>
 
 namespace fastball::sim_bullet {
 
-/// How large one error is. Nothing but kNone draws a number; a draw is an offset in the error's unit, or for a relative one the
-/// factor on the nominal value.
+/// How large one error is. kNone draws no random number. A draw is an offset in the error's unit,
+/// or for a relative error the factor on the nominal value less 1.
 struct Distribution {
   enum class Shape {
     kNone,
@@ -21,7 +19,7 @@ struct Distribution {
   Shape shape = Shape::kNone;
   double a = 0, b = 0;
 
-  /// Offset of a draw, or for kLogUniform the factor less 1. `size` multiplies it: a log-uniform factor is raised to that power.
+  /// `size` multiplies the draw; a log-uniform factor is raised to that power.
   double draw(std::mt19937_64& engine, double size) const;
   /// Largest |draw|.
   double largest(double size) const;
@@ -30,7 +28,9 @@ struct Distribution {
 /// No relative error makes a quantity less than this share of its nominal value.
 inline constexpr double kLeastFactor = 0.05;
 
-/// The errors a throw can have. Each may be given for the set-up, for the throw, or for both: then they add up.
+/// The errors a throw can have. Each may be given for the set-up, for the throw, or for both (then
+/// offsets add up and factors multiply), but kEncoderNoise for the throw only, and radius, base,
+/// cameras and the images' noise for the set-up only.
 enum class Error {
   kGraspOffset,     ///< [m], of the ball in the hand, each axis
   kBallMass,        ///< relative

@@ -19,10 +19,11 @@ struct BallMotion {
 };
 
 /// The Bullet world: arm and hand, the ball as a rigid sphere, the net's ring and the floor. Gravity and the contacts of the
-/// ball with ring and floor are Bullet's; the hand has no Bullet contacts at all, its forces come from HandContacts.
+/// ball with ring and floor are Bullet's; the hand has no Bullet contacts at all, its forces come
+/// from BallContacts.
 class World {
  public:
-  /// @param arm_hand must outlive the world.
+  /// @param arm_hand must outlive the world. @param gravity [m/s^2], along -z.
   World(ArmHand& arm_hand,
         const model::BallParameters& ball,
         const model::Target& target,

@@ -16,7 +16,7 @@ class PlanarFinger {
  public:
   PlanarFinger(const model::HandParameters& hand, double contact) : lag_(hand.actuator_lag) {
     const double m = hand.finger_mass / 2, l1 = hand.proximal_length, l2 = hand.distal_length;
-    const double c = std::cos(testHand().parallelFinger(model::kThumb, 0.06)[2]);
+    const double c = std::cos(testHand().parallelFinger(0.06)[2]);
     const double i1 = m * l1 * l1 / 3, i2 = m * l2 * l2 / 3, cross = m * l1 * l2 / 2 * c;
     M_ << i1 + i2 + m * l1 * l1 + 2 * cross, i2 + cross, i2 + cross, i2;
     M_.diagonal().array() += hand.joint_inertia;

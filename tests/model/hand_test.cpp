@@ -96,9 +96,9 @@ TEST_F(HandTest, ParallelFingerHoldsItsDistalPhalanxAtTheDistance) {
 
 TEST_F(HandTest, ParallelFingerRefusesWhatItCannotReach) {
   for (const double distance : {-0.016, 0.106, std::nan("")})
-    EXPECT_THROW(hand_.parallelFinger(kThumb, distance), std::invalid_argument);
+    EXPECT_THROW(hand_.parallelFinger(distance), std::invalid_argument);
   try {
-    hand_.parallelFinger(kThumb, 0.2);
+    hand_.parallelFinger(0.2);
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("0.2 m"));
     EXPECT_THAT(error.what(), ::testing::HasSubstr("-0.015 to 0.105 m"));
