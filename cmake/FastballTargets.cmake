@@ -107,8 +107,9 @@ endfunction()
 
 # fastball_test(name SOURCES ... LIBRARIES ... [NETWORK]): one GoogleTest program, one ctest per test case.
 # NETWORK: each case runs in a network of its own (tests/in_own_network), so that runs cannot hear each other.
+# CORES n: each case keeps so many busy, and others wait.
 function(fastball_test name)
-  cmake_parse_arguments(ARG "NETWORK" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "NETWORK" "TIMEOUT;CORES" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   fastball_settings(${name})
@@ -119,11 +120,14 @@ function(fastball_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(NOT ARG_CORES)
+    set(ARG_CORES 1)
+  endif()
   if(ARG_NETWORK)
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR ${PROJECT_SOURCE_DIR}/tests/in_own_network)
   endif()
   include(GoogleTest)
   # Tests neither use nor fill the user's cache. Those that may take long begin first.
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_TIMEOUT} ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/test_cache")
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_TIMEOUT} PROCESSORS ${ARG_CORES} ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/test_cache")
 endfunction()

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 constexpr int64_t kLimitUs = 500'000;  ///< silence_limit of a system on several hosts
 constexpr int64_t kBeatUs = kLimitUs / 5;
-constexpr int64_t kTransitUs = 50'000;
+constexpr int64_t kTransitUs = 250'000;
 const std::vector<std::string> kHosts = {"robot", "vision", "operator"};
 
 class CutOff : public WatchedHosts {
