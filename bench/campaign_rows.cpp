@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "bench/timing.h"
+#include "launch/processes.h"
 
 namespace fastball::bench {
 namespace {
@@ -55,7 +56,7 @@ Measured campaign(int throws, int jobs, bool images) {
     arguments.emplace_back("--images");
   const double cpu_before = childrenCpu();
   const auto begun = std::chrono::steady_clock::now();
-  const int status = bp::system(bp::exe = fs::read_symlink("/proc/self/exe").string(),
+  const int status = bp::system(bp::exe = launch::programFolder() + "/fastball",
                                 bp::args = arguments, bp::std_out > bp::null);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
   fs::remove_all(folder);

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "bench/timing.h"
+#include "launch/processes.h"
 
 namespace fastball::bench {
 namespace {
@@ -24,7 +25,7 @@ constexpr int kThrows = 10;
 constexpr std::size_t kRepetitions = 3;
 
 void fastball(const std::vector<std::string>& arguments) {
-  const int status = bp::system(bp::exe = fs::read_symlink("/proc/self/exe").string(),
+  const int status = bp::system(bp::exe = launch::programFolder() + "/fastball",
                                 bp::args = arguments, bp::std_out > bp::null);
   if (status != 0)
     throw std::runtime_error(fmt::format("the measured fastball {} ended with exit status {}",

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "bench/timing.h"
+#include "launch/processes.h"
 
 namespace fastball::bench {
 namespace {
@@ -42,7 +43,7 @@ nlohmann::json threeThrows() {
   const std::vector<std::string> arguments = {
       "run",       "--throws",     kThrows, "--json", json, "--log", folder / "run.lcmlog",
       "--lcm-url", privateLcmUrl()};
-  const int status = bp::system(bp::exe = fs::read_symlink("/proc/self/exe").string(),
+  const int status = bp::system(bp::exe = launch::programFolder() + "/fastball",
                                 bp::args = arguments, bp::std_out > bp::null);
   std::ifstream file(json);
   const nlohmann::json result = nlohmann::json::parse(file, nullptr, false);

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "bench/timing.h"
+#include "launch/processes.h"
 #include "lcmtypes/fastball_types.h"
 #include "messaging/lcm_endpoint.h"
 
@@ -91,9 +92,7 @@ class RunningSpy {
   }
 
  private:
-  static std::string program() {
-    return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fastball").string();
-  }
+  static std::string program() { return launch::programFolder() + "/fastball"; }
   void read() {
     for (std::string line; std::getline(output_, line);) {
       const auto object = nlohmann::json::parse(line, nullptr, false);

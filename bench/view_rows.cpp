@@ -20,6 +20,7 @@
 #include "bench/timing.h"
 #include "bench/viewing_page.h"
 #include "config/experiment.h"
+#include "launch/processes.h"
 #include "launch/view/view_server.h"
 
 namespace fastball::bench {
@@ -49,7 +50,7 @@ std::vector<double> throwTimes(const std::string& url, const Folder& folder) {
   const std::vector<std::string> arguments = {
       "run",       "--throws", kThrows, "--json", json, "--log", folder.path / "run.lcmlog",
       "--lcm-url", url};
-  const int status = bp::system(bp::exe = fs::read_symlink("/proc/self/exe").string(),
+  const int status = bp::system(bp::exe = launch::programFolder() + "/fastball",
                                 bp::args = arguments, bp::std_out > bp::null);
   if (status != 0)
     throw std::runtime_error(fmt::format("the measured run ended with exit status {}", status));
