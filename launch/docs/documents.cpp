@@ -65,15 +65,6 @@ void makeThrow(const DocumentOptions& options) {
                               "```\n$ ./fastball run --seed 1\n" + said + "```\n"));
 }
 
-std::string benchmarkLine(const nlohmann::json& row) {
-  const nlohmann::json& peer = row.at("peer_value");
-  return fmt::format("| `{}` | {:.4g} | {} | {} | {} | {} |", row.at("id").get<std::string>(),
-                     row.at("value").get<double>(), row.at("unit").get<std::string>(),
-                     row.at("peer").get<std::string>(),
-                     peer.is_null() ? "" : fmt::format("{:.4g}", peer.get<double>()),
-                     row.at("note").get<std::string>());
-}
-
 void makeBenchmarks(const DocumentOptions& options) {
   const fs::path path = options.tree / "docs/benchmarks.md";
   const fs::path measured = options.campaigns / "benchmarks.json";
@@ -85,12 +76,13 @@ void makeBenchmarks(const DocumentOptions& options) {
   } catch (const std::runtime_error& e) {
     missing = e.what();  // a row that this machine cannot measure: the others still count
   }
-  for (const nlohmann::json& row : nlohmann::json::parse(readText(measured)).at("rows")) {
-    const std::string id = row.at("id");
+  const nlohmann::json results = nlohmann::json::parse(readText(measured));
+  for (const nlohmann::json& row : results.at("rows")) {
     bool found = false;
-    page = withRow(page, id, benchmarkLine(row), found);
+    page = withBenchmark(page, row, found);
     if (!found)
-      missing += fmt::format("{}: its tables have no row for {}; ", path.string(), id);
+      missing +=
+          fmt::format("{}: its tables have no row for {}; ", path.string(), row.at("id").dump());
   }
   writeText(path, page);
   if (!missing.empty())

@@ -1,6 +1,7 @@
 #include "launch/docs/marked_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <stdexcept>
 
@@ -32,6 +33,17 @@ std::string withRow(const std::string& page,
     at = end + 1;
   }
   return changed;
+}
+
+std::string withBenchmark(const std::string& page, const nlohmann::json& row, bool& found) {
+  const std::string id = row.at("id");
+  const nlohmann::json& peer = row.at("peer_value");
+  const std::string line =
+      fmt::format("| `{}` | {:.4g} | {} | {} | {} | {} |", id, row.at("value").get<double>(),
+                  row.at("unit").get<std::string>(), row.at("peer").get<std::string>(),
+                  peer.is_null() ? "" : fmt::format("{:.4g}", peer.get<double>()),
+                  row.at("note").get<std::string>());
+  return withRow(page, id, line, found);
 }
 
 }  // namespace fastball::launch

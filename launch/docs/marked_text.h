@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace fastball::launch {
@@ -13,5 +14,8 @@ std::string withRow(const std::string& page,
                     const std::string& id,
                     const std::string& row,
                     bool& found);
+
+/// The same for a row of `fastball bench --json`.
+std::string withBenchmark(const std::string& page, const nlohmann::json& row, bool& found);
 
 }  // namespace fastball::launch

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "launch/docs/marked_text.h"
@@ -49,6 +50,16 @@ TEST(MarkedText, ReplacesTheRowOfAnId) {
   EXPECT_TRUE(found);
   EXPECT_EQ(withRow(page, "c", "x", found), page);
   EXPECT_FALSE(found);
+}
+
+TEST(MarkedText, ReplacesTheRowOfABenchmark) {
+  const std::string page = "| `a.us` | 9 | us | none |  | old |\n| `b` | 1 | 1 | none |  |  |\n";
+  const nlohmann::json row = {{"id", "a.us"},   {"value", 1.23456},   {"unit", "us"},
+                              {"peer", "tick"}, {"peer_value", 10.0}, {"note", "new"}};
+  bool found = false;
+  EXPECT_EQ(withBenchmark(page, row, found),
+            "| `a.us` | 1.235 | us | tick | 10 | new |\n| `b` | 1 | 1 | none |  |  |\n");
+  EXPECT_TRUE(found);
 }
 
 }  // namespace
