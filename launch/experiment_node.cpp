@@ -169,7 +169,9 @@ void ExperimentNode::enter(Phase phase) {
   const int64_t now = clock_.monotonicUs();
   if (phase == Phase::kPlanning)
     throw_began_us_ = now;
-  next_say_us_ = now;
+  // A LANDING comes unasked.
+  next_say_us_ =
+      now + (phase == Phase::kThrowing ? microseconds(settings_.config.repeat_interval) : 0);
   give_up_us_ = now + microseconds(settings_.config.answer_timeout);
 }
 
@@ -189,6 +191,11 @@ void ExperimentNode::say() {
     }
     case Phase::kStarting:
       scenes_.publish(scene_);
+      break;
+    case Phase::kThrowing:
+      // UDP may have lost the LANDING, which is said once: whoever measured it answers the SCENE again.
+      if (sceneFinished() && !landing_)
+        scenes_.publish(scene_);
       break;
     default:
       next_say_us_ = INT64_MAX;

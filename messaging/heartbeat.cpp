@@ -87,7 +87,8 @@ void Heartbeat::say() {
   message_.plan_id = said_.plan_id;
   message_.received = message_.lost = message_.invalid = 0;
   for (const auto& [channel, counts] : endpoint_.counts()) {
-    message_.received += counts.accepted;
+    if (channel != kHeartbeat.name)
+      message_.received += counts.accepted;
     message_.lost += counts.lost;
     message_.invalid += counts.invalid;
   }

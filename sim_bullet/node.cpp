@@ -71,14 +71,12 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
       hand_states_(endpoint, messaging::kHandState),
       truths_(endpoint, messaging::kSimTruth) {
   if (setup_.cameras) {
-    cameras_.emplace(endpoint, *setup_.cameras, setup_.experiment, setup_.uncertainty);
+    cameras_.emplace(endpoint, clock, !setup_.realtime, *setup_.cameras, setup_.experiment,
+                     setup_.uncertainty);
   } else {
     landings_.emplace(endpoint, messaging::kLanding);
   }
-  endpoint.subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) {
-    if (m.scene_id > message_.scene_id)
-      next_scene_ = m;
-  });
+  endpoint.subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) { take(m); });
   // A command answers the tick that was said last; in real time it may answer any tick since the one before it.
   endpoint.subscribe<arm_command_t>(messaging::kArmCommand, [this](const arm_command_t& m) {
     take(m, arm_watch_, &arm_command_);
@@ -86,6 +84,14 @@ SimNode::SimNode(messaging::Endpoint& endpoint,
   endpoint.subscribe<hand_command_t>(messaging::kHandCommand, [this](const hand_command_t& m) {
     take(m, hand_watch_, &hand_command_);
   });
+}
+
+void SimNode::take(const scene_t& message) {
+  if (message.scene_id > message_.scene_id) {
+    next_scene_ = message;
+  } else if (message.scene_id == message_.scene_id && curtain_landing_) {
+    landings_->publish(*curtain_landing_);  // it was lost on the way
+  }
 }
 
 template <class Command>
@@ -150,7 +156,7 @@ void SimNode::begin(const scene_t& message) {
   hand_watch_.beginScene(message.scene_id);
   stray_commands_ = 0;
   braking_ = false;
-  curtain_said_ = false;
+  curtain_landing_.reset();
   try {
     requireRealScene(message);
     scene_ = std::make_unique<Scene>(setup_.experiment, setup_.settings, setup_.uncertainty,
@@ -171,7 +177,10 @@ void SimNode::begin(const scene_t& message) {
 }
 
 void SimNode::stepLockstep() {
-  if (arm_command_ && hand_command_) {
+  const bool last_tick = scene_->tick() + 1 >= last_tick_;
+  const bool braking = arm_command_ && arm_command_->phase == arm_command_t::BRAKE;
+  const bool held_up = cameras_ && !braking && cameras_->holdUp(last_tick);
+  if (arm_command_ && hand_command_ && !held_up) {
     scene_->advance(armTorque(*arm_command_), heldCommand());
     arm_command_.reset();
     hand_command_.reset();
@@ -276,11 +285,10 @@ void SimNode::repeatEvents() {
 }
 
 void SimNode::sayLanding(const SceneEvent* landed) {
-  if (!landings_ || curtain_said_)
+  if (!landings_ || curtain_landing_)
     return;
-  curtain_said_ = true;
-  landing_t message = curtainLanding(stamp(), landed, setup_.settings.light_curtain, message_.seed);
-  landings_->publish(message);
+  curtain_landing_ = curtainLanding(stamp(), landed, setup_.settings.light_curtain, message_.seed);
+  landings_->publish(*curtain_landing_);
 }
 
 void SimNode::end(const std::string& state, const std::string& note) {

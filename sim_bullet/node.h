@@ -57,6 +57,7 @@ class SimNode : public messaging::Node {
   const Scene* scene() const { return scene_.get(); }
 
  private:
+  void take(const scene_t& message);
   template <class Command>
   void take(const Command& message, CommandWatch& watch, std::optional<Command>* newest);
   void begin(const scene_t& message);
@@ -97,12 +98,12 @@ class SimNode : public messaging::Node {
   int64_t said_us_ = 0;   ///< monotonic, lockstep: states last said
   int64_t start_us_ = 0;  ///< monotonic, real time: tick 0
   int64_t stray_commands_ = 0;
-  std::vector<sim_truth_t> events_;       ///< of the scene
-  std::vector<sim_truth_t> last_events_;  ///< of the one before, or of this one when it is over
-  int repeats_ = 0;                       ///< of those still to come
-  int64_t next_repeat_us_ = 0;            ///< monotonic
-  bool braking_ = false;                  ///< real time: the watchdog has the arm
-  bool curtain_said_ = false;             ///< LANDING of the scene
+  std::vector<sim_truth_t> events_;           ///< of the scene
+  std::vector<sim_truth_t> last_events_;      ///< of the one before, or of this one when it is over
+  int repeats_ = 0;                           ///< of those still to come
+  int64_t next_repeat_us_ = 0;                ///< monotonic
+  bool braking_ = false;                      ///< real time: the watchdog has the arm
+  std::optional<landing_t> curtain_landing_;  ///< of the scene, once said
   messaging::NodeState state_;
 };
 

@@ -1,40 +1,35 @@
 #include "sim_bullet/scene_cameras.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sim_bullet/scene_messages.h"
 
 namespace fastball::sim_bullet {
 namespace {
 
-messaging::Channel<image_t> imageChannel(const std::string& name) {
-  for (const auto& channel : {messaging::kCameraLeft, messaging::kCameraRight}) {
-    if (name == channel.name)
-      return channel;
-  }
-  throw std::invalid_argument(fmt::format("camera channel '{}' is none of {} and {}", name,
-                                          messaging::kCameraLeft.name,
-                                          messaging::kCameraRight.name));
+std::vector<std::string> channels(const CameraRigOptions& rig) {
+  std::vector<std::string> names;
+  for (const RigCamera& camera : rig.cameras)
+    names.push_back(camera.channel);
+  return names;
 }
 
 }  // namespace
 
 SceneCameras::SceneCameras(messaging::Endpoint& endpoint,
+                           const messaging::Clock& clock,
+                           bool lockstep,
                            const CameraRigOptions& calibrated,
                            const config::Experiment& experiment,
                            const Uncertainty& uncertainty)
     : calibrated_(calibrated),
       experiment_(experiment),
       uncertainty_(uncertainty),
-      infos_(endpoint, messaging::kCameraInfo) {
-  for (const RigCamera& camera : calibrated.cameras)
-    images_.emplace_back(endpoint, imageChannel(camera.channel));
-}
+      infos_(endpoint, messaging::kCameraInfo),
+      images_(endpoint, clock, channels(calibrated), lockstep) {}
 
 void SceneCameras::place(int64_t set_up_seed, const Scene& scene) {
   if (rig_ && set_up_seed_ == set_up_seed)
@@ -53,6 +48,7 @@ void SceneCameras::place(int64_t set_up_seed, const Scene& scene) {
 
 void SceneCameras::beginScene(const scene_t& message, const Scene& scene) {
   place(message.set_up_seed, scene);
+  images_.beginScene();
   const auto us = [&](double seconds) {
     return message.utime + std::llround(std::min(seconds, message.duration) * 1e6);
   };
@@ -68,16 +64,28 @@ void SceneCameras::sayInfo(int64_t utime) {
   }
 }
 
+void SceneCameras::collectImages() {
+  while (rig_->nextImage(rendered_))
+    images_.add(static_cast<std::size_t>(rendered_.camera), image(rendered_));
+}
+
 void SceneCameras::sayImages() {
-  while (rig_->nextImage(rendered_)) {
-    image_t message = image(rendered_);
-    images_[static_cast<std::size_t>(rendered_.camera)].publish(message);
-  }
+  collectImages();
+  images_.say();
+}
+
+bool SceneCameras::holdUp(bool last_tick) {
+  if (!last_tick)
+    return images_.behind();
+  rig_->flush();
+  sayImages();
+  return !images_.empty();
 }
 
 void SceneCameras::finish() {
   rig_->flush();
-  sayImages();
+  collectImages();
+  images_.sayRest();
 }
 
 }  // namespace fastball::sim_bullet

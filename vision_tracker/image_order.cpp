@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 
 namespace fastball::vision_tracker {
 namespace {
@@ -25,6 +27,10 @@ cv::Size claimedSize(const std::vector<uint8_t>& jpeg) {
     i += 2 + static_cast<std::size_t>(word(i + 2));
   }
   return {};
+}
+
+std::size_t hashOf(const std::vector<uint8_t>& bytes) {
+  return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -79,11 +85,13 @@ void ImageOrder::reset() {
 
 ImageOrder::Verdict ImageOrder::push(ReceivedImage image) {
   Stream& stream = streams_[static_cast<std::size_t>(image.camera)];
+  const std::size_t hash = hashOf(image.data);
   if (image.utime == stream.last)
-    return Verdict::kRepeated;
+    return hash == stream.last_hash ? Verdict::kRepeated : Verdict::kSameTime;
   if (image.utime < stream.last || image.utime < handed_over_)
     return Verdict::kBackwards;
   stream.last = image.utime;
+  stream.last_hash = hash;
   stream.queue.push_back(std::move(image));
   return Verdict::kAccepted;
 }

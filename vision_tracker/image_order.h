@@ -33,7 +33,8 @@ class ImageOrder {
   void reset();
   enum class Verdict {
     kAccepted,
-    kRepeated,   ///< has the time of its camera's newest image
+    kRepeated,   ///< its camera's newest image came again
+    kSameTime,   ///< another image of the time of that one
     kBackwards,  ///< is older than that, or than the last image that was handed over
   };
   /// Takes an image in, if the verdict is kAccepted.
@@ -48,7 +49,8 @@ class ImageOrder {
  private:
   struct Stream {
     std::deque<ReceivedImage> queue;
-    int64_t last = INT64_MIN;  ///< [us], of the newest image that came
+    int64_t last = INT64_MIN;   ///< [us], of the newest image that came
+    std::size_t last_hash = 0;  ///< of its bytes
   };
   std::size_t earliest() const;
 

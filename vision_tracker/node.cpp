@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "config/experiment.h"
@@ -38,11 +39,13 @@ class TrackerNode : public messaging::Node {
         observations_(endpoint, messaging::kBallObservation),
         tracks_(endpoint, messaging::kBallTrack),
         landings_(endpoint, messaging::kLanding),
-        calibrations_(names_) {
+        calibrations_(names_),
+        answers_(names_.size()) {
     endpoint.subscribe<camera_info_t>(messaging::kCameraInfo,
                                       [this](const camera_info_t& m) { takeInfo(m); });
     endpoint.subscribe<plan_request_t>(messaging::kPlanRequest,
                                        [this](const plan_request_t& m) { takeRequest(m); });
+    endpoint.subscribe<scene_t>(messaging::kScene, [this](const scene_t& m) { takeScene(m); });
     for (std::size_t camera = 0; camera < names_.size(); ++camera)
       endpoint.subscribe<image_t>(messaging::imageChannel(names_[camera].c_str()),
                                   [this, camera](const image_t& m) { takeImage(camera, m); });
@@ -121,6 +124,7 @@ class TrackerNode : public messaging::Node {
     if (request_id_ != 0 && images_ + refused_ > 0 && !over())
       endThrow();
     request_id_ = m.request_id;
+    said_landing_.reset();
     images_ = 0;
     refused_ = 0;
     abandoned_ = false;
@@ -130,6 +134,12 @@ class TrackerNode : public messaging::Node {
     sizes_.reset();
     setCameras();
     order_.reset();
+  }
+
+  /// A scene that is said again after its landing: the LANDING was lost on the way.
+  void takeScene(const scene_t& m) {
+    if (said_landing_ && said_landing_->request_id == m.scene_id)
+      landings_.publish(*said_landing_);
   }
 
   /// No image of the throw will come any more.
@@ -161,12 +171,22 @@ class TrackerNode : public messaging::Node {
           first_utime_ = m.utime;
         break;
       case ImageOrder::Verdict::kRepeated:
-        complain(camera, m.seq, "came twice");
+        answerAgain(camera, m.utime);
+        break;
+      case ImageOrder::Verdict::kSameTime:
+        complain(camera, m.seq, "has the time of the one before");
         break;
       case ImageOrder::Verdict::kBackwards:
         complain(camera, m.seq, fmt::format("of {} us came after a later one", m.utime));
         break;
     }
+  }
+
+  /// Whoever says an image again has not heard what was seen in it.
+  void answerAgain(std::size_t camera, int64_t utime) {
+    ball_observation_t& answer = answers_[camera];
+    if (answer.request_id == request_id_ && answer.utime == utime)
+      observations_.publish(answer);
   }
 
   /// Images whose message did not decode or broke its rule, ever.
@@ -225,6 +245,7 @@ class TrackerNode : public messaging::Node {
     m.channel = names_[static_cast<std::size_t>(image.camera)];
     m.frame = image.frame;
     observations_.publish(m);
+    answers_[static_cast<std::size_t>(image.camera)] = m;
   }
 
   void sayTrack() {
@@ -266,6 +287,7 @@ class TrackerNode : public messaging::Node {
                                m.message.empty() ? "" : "; ", refused_, notice_);
     m.message = messaging::shortened(m.message);
     landings_.publish(m);
+    said_landing_ = m;
   }
 
   messaging::Endpoint& endpoint_;
@@ -290,6 +312,8 @@ class TrackerNode : public messaging::Node {
   int64_t first_utime_ = 0;    ///< of the throw's first image
   int64_t last_image_us_ = 0;  ///< monotonic
   std::string notice_;
+  std::vector<ball_observation_t> answers_;  ///< the newest to each camera
+  std::optional<landing_t> said_landing_;
 };
 
 }  // namespace

@@ -177,6 +177,18 @@ TEST_F(ExperimentNodeTest, AThrowWithoutALandingIsAResult) {
   EXPECT_THAT(experiment.throws()[2].note, HasSubstr("no LANDING"));
 }
 
+TEST_F(ExperimentNodeTest, AsksAgainForALandingThatWasLost) {
+  peers.measures = false;
+  EXPECT_FALSE(flow());
+  EXPECT_EQ(peers.scenes.size(), 1U);
+  peers.measures = true;
+  wait(0.1);
+  EXPECT_TRUE(flow());
+  ASSERT_EQ(experiment.throws().size(), 3U);
+  EXPECT_TRUE(experiment.throws()[0].measured);
+  EXPECT_EQ(peers.scenes.size(), 4U);
+}
+
 TEST_F(ExperimentNodeTest, AThrowSaysThatTheHandKeptTheBallAndWhy) {
   peers.kept = "kept the ball: nothing has been heard of one";
   ASSERT_TRUE(flow());

@@ -35,10 +35,13 @@ TEST(Subscriptions, AreThoseOfTheDesign) {
   EXPECT_THAT(
       subscriptions(hand_server::makeNode),
       UnorderedElementsAre("SWING_PLAN", "THROW_START", "ARM_STATE", "HAND_STATE", "ESTOP"));
+  // The last two pace the images.
   EXPECT_THAT(subscriptions(sim_bullet::makeNode),
-              UnorderedElementsAre("ARM_COMMAND", "HAND_COMMAND", "SCENE"));
-  EXPECT_THAT(subscriptions(vision_tracker::makeNode),
-              UnorderedElementsAre("CAMERA_LEFT", "CAMERA_RIGHT", "CAMERA_INFO", "PLAN_REQUEST"));
+              UnorderedElementsAre("ARM_COMMAND", "HAND_COMMAND", "SCENE", "BALL_OBSERVATION",
+                                   "HEARTBEAT"));
+  EXPECT_THAT(
+      subscriptions(vision_tracker::makeNode),
+      UnorderedElementsAre("CAMERA_LEFT", "CAMERA_RIGHT", "CAMERA_INFO", "PLAN_REQUEST", "SCENE"));
 }
 
 TEST(Subscriptions, TheExperimentDoesNotHearTheTruth) {

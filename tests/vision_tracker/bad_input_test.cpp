@@ -148,7 +148,7 @@ TEST_F(BadInput, ImagesWithOneTimeAndTimesThatGoBackwards) {
   run();
   EXPECT_THAT(whyNotMeasured(), HasSubstr(std::to_string(images.size() - 2) +
                                           " images could not be used, the first: CAMERA_LEFT: "
-                                          "image 1 came twice"));
+                                          "image 1 has the time of the one before"));
   landings_.clear();
   request(2);
   for (auto image = images.rbegin(); image != images.rend(); ++image) {

@@ -63,6 +63,9 @@ TEST(ImageOrder, RefusesRepeatedAndLateImages) {
   ImageOrder order(2);
   EXPECT_EQ(order.push(image(0, 10)), Verdict::kAccepted);
   EXPECT_EQ(order.push(image(0, 10)), Verdict::kRepeated);
+  ReceivedImage other = image(0, 10);
+  other.data = {1};
+  EXPECT_EQ(order.push(other), Verdict::kSameTime);
   EXPECT_EQ(order.push(image(0, 5)), Verdict::kBackwards);
   order.reset();
   EXPECT_EQ(order.push(image(0, 5)), Verdict::kAccepted);
