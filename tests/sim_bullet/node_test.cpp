@@ -241,6 +241,19 @@ TEST_F(Simulator, SaysTheEventsOfAFinishedSceneAgainForTwoSeconds) {
   EXPECT_EQ(peers_.truths.back().utime, finished.utime);
 }
 
+TEST_F(Simulator, TheLightCurtainSaysItsLandingAgainToASceneThatIsSaidAgain) {
+  std::vector<int64_t> landings;
+  peer_endpoint_.subscribe<landing_t>(
+      messaging::kLanding, [&](const landing_t& m) { landings.push_back(m.request_id); });
+  peers_.sendScene(sceneMessage(1, 0.01));
+  settle();
+  EXPECT_EQ(landings, std::vector<int64_t>{1});
+  peers_.sendScene(sceneMessage(1, 0.01));
+  settle();
+  EXPECT_EQ(landings, (std::vector<int64_t>{1, 1}));
+  EXPECT_EQ(node_.state().state, "finished");
+}
+
 TEST_F(Simulator, ANewSceneEndsTheOldOne) {
   peers_.answers_arm = false;
   peers_.sendScene(sceneMessage(1, 1));
