@@ -9,8 +9,8 @@
 namespace fastball::sim_bullet {
 namespace {
 
-constexpr int64_t kRepeatUs = 50000;     // wall time; an answer takes some 2 ms
-constexpr int64_t kGiveUpUs = 1000000;   // wall time; 20 times said
+constexpr int64_t kRepeatUs = 50000;    // wall time; an answer takes some 2 ms where cores are free
+constexpr int64_t kGiveUpUs = 1000000;  // wall time; 20 times said
 constexpr std::size_t kMostWaiting = 8;  // of a camera: 33 ms at 240 Hz
 
 messaging::Channel<image_t> imageChannel(const std::string& name) {
