@@ -179,7 +179,8 @@ void SimNode::begin(const scene_t& message) {
 void SimNode::stepLockstep() {
   const bool last_tick = scene_->tick() + 1 >= last_tick_;
   const bool braking = arm_command_ && arm_command_->phase == arm_command_t::BRAKE;
-  const bool held_up = cameras_ && !braking && cameras_->holdUp(last_tick);
+  // A braking arm waits for no image; by the last tick it rests.
+  const bool held_up = cameras_ && (last_tick || !braking) && cameras_->holdUp(last_tick);
   if (arm_command_ && hand_command_ && !held_up) {
     scene_->advance(armTorque(*arm_command_), heldCommand());
     arm_command_.reset();
