@@ -50,6 +50,7 @@ hand_server::HandSample sampleOf(const sim_bullet::RobotState& robot,
                                  int64_t tick) {
   hand_server::HandSample sample{kSceneUs * scene_id + kTickUs * tick, scene_id, tick, robot.q.hand,
                                  robot.qd.hand};
+  sample.tau = robot.tau_hand;
   for (int i = 0; i < model::kFingers; ++i) {
     sample.force[i] = robot.felt[i].normal;
     sample.tangential[i] = robot.felt[i].tangential;
@@ -101,8 +102,7 @@ FeltThrow FeltThrows::run(hand_server::HandController& hand,
     const Eigen::Vector3d p_HBall =
         (arm_.X_WT(robot.q.arm) * X_TH_).inverse() * scene.ball().p_WBall;
     if (1e-3 * static_cast<double>(k) < kHold)
-      thrown.lay = {robot.forces[model::kThumb].normal, p_HBall.head<2>(),
-                    thrown.errors.ball.youngs_modulus};
+      thrown.lay = {robot.forces[model::kThumb].normal, p_HBall, thrown.errors.ball.youngs_modulus};
     const auto told = hand.answer(sampleOf(robot, scene_id, k)).value();
     while (const auto event = hand.takeEvent()) {
       if (event->kind == hand_server::ReleaseEvent::Kind::kDeparted)

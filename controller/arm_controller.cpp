@@ -32,8 +32,15 @@ Eigen::Vector3d fade(double s) {
 
 }  // namespace
 
-ArmController::ArmController(const model::Arm& arm, const ControllerConfig& config)
-    : arm_(arm), config_(config), law_(arm, config.kp, config.kd), stop_(arm, config.brake_share) {}
+ArmController::ArmController(const model::Arm& arm,
+                             const model::Hand& hand,
+                             const model::BallParameters& ball,
+                             const ControllerConfig& config)
+    : arm_(arm),
+      config_(config),
+      law_(arm, config.kp, config.kd),
+      grip_correction_(arm, hand, ball),
+      stop_(arm, config.brake_share) {}
 
 bool ArmController::offerPlan(Plan plan) {
   if (plan_ && *plan_ == plan) {
@@ -152,6 +159,18 @@ void ArmController::beginThrow(const ArmSample& sample) {
   status_.q_error_max.setZero();
   offset_ = sample.q - plan_->trajectory.samples().front().q;
   offset_utime_ = sample.utime;
+  correction_.setZero();
+}
+
+void ArmController::correctFor(int64_t plan_id, int64_t scene_id, const Eigen::Vector3d& p_HBall) {
+  const bool in_time = run_plan_ && run_plan_->id == plan_id && run_order_.scene_id == scene_id &&
+                       last_.utime < run_order_.start_utime;
+  if (!in_time || run_plan_->t_swing < config_.blend_time)
+    return;
+  const Eigen::Vector4d change = grip_correction_.postureChange(*run_plan_, p_HBall);
+  if (change.allFinite())
+    correction_ =
+        change * std::min(1.0, config_.grip_correction_max / change.cwiseAbs().maxCoeff());
 }
 
 void ArmController::beginStop(const ArmSample& sample, const std::string& reason) {
@@ -216,9 +235,10 @@ model::ArmMotion ArmController::desiredMotion(int64_t utime) {
   model::ArmMotion desired = run_plan_->trajectory.at(t);
   const double rate = 1 / config_.blend_time;
   const Eigen::Vector3d left = fade(seconds(utime - offset_utime_) * rate);
-  desired.q += offset_ * left[0];
-  desired.qd += offset_ * (left[1] * rate);
-  desired.qdd += offset_ * (left[2] * rate * rate);
+  const Eigen::Vector3d to_come = fade(t * rate);
+  desired.q += offset_ * left[0] + correction_ * (1 - to_come[0]);
+  desired.qd += (offset_ * left[1] - correction_ * to_come[1]) * rate;
+  desired.qdd += (offset_ * left[2] - correction_ * to_come[2]) * (rate * rate);
   phase_ = phaseAt(t);
   return desired;
 }

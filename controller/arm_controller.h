@@ -7,6 +7,7 @@
 
 #include "controller/config.h"
 #include "controller/control_law.h"
+#include "controller/grip_correction.h"
 #include "controller/plan.h"
 #include "controller/stop_motion.h"
 
@@ -61,7 +62,10 @@ struct Status {
 /// it is. Once stopped, it stays so until a new scene; an interrupted plan is not taken again.
 class ArmController {
  public:
-  ArmController(const model::Arm& arm, const ControllerConfig& config);
+  ArmController(const model::Arm& arm,
+                const model::Hand& hand,
+                const model::BallParameters& ball,
+                const ControllerConfig& config);
 
   /// Takes the plan for the next throw, instead of any held before. The same plan again changes nothing.
   /// @return false if it is refused; notice() says why.
@@ -72,6 +76,10 @@ class ArmController {
   /// changes nothing.
   /// @return false if it is refused; notice() says why.
   bool startThrow(const ThrowOrder& order);
+  /// The hand has felt the ball of a throw at p_HBall [m]: the arm takes up the posture that makes good what that is off its
+  /// place, in the first `blend_time` of the plan, and keeps to it. Changes nothing once the plan has started, for another
+  /// throw, or where the swing begins sooner.
+  void correctFor(int64_t plan_id, int64_t scene_id, const Eigen::Vector3d& p_HBall);
   /// Brakes to rest and drops the plan.
   void stop(const std::string& reason);
   /// Torques for a state; nothing for a state older than one already answered. Does not allocate unless it must stop.
@@ -107,6 +115,7 @@ class ArmController {
   model::Arm arm_;
   ControllerConfig config_;
   ControlLaw law_;
+  GripCorrection grip_correction_;
 
   std::shared_ptr<const Plan> plan_;     ///< held for the next throw
   std::shared_ptr<const Plan> dropped_;  ///< interrupted by a stop
@@ -121,6 +130,7 @@ class ArmController {
   Eigen::Vector4d offset_ =
       Eigen::Vector4d::Zero();  ///< [rad], of the arm from the plan when it was taken up
   int64_t offset_utime_ = 0;
+  Eigen::Vector4d correction_ = Eigen::Vector4d::Zero();  ///< [rad], for a ball off its place
   StopMotion stop_;
   bool stopped_ = false;       ///< this scene's motion is over
   bool stop_pending_ = false;  ///< stopped, and no state since

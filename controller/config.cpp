@@ -14,6 +14,7 @@ ControllerConfig loadConfig(const std::string& path) {
   result.kd = section.vector("kd", model::kArmJoints, config::kNonNegative);
   result.start_tolerance = section.number("start_tolerance", config::kPositive);
   result.blend_time = section.number("blend_time", config::kPositive);
+  result.grip_correction_max = section.number("grip_correction_max", {0, 0.05});
   result.tracking_bound = section.number("tracking_bound", config::kPositive);
   result.overspeed = section.number("overspeed", {1.0, 2.0});
   result.stale_limit = section.number("stale_limit", {0.002, 1.0});

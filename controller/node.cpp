@@ -22,8 +22,14 @@ Plan fromMessage(const swing_plan_t& message) {
     samples[k].qd = Eigen::Map<const Eigen::Vector4d>(message.qd[k].data());
     samples[k].qdd = Eigen::Map<const Eigen::Vector4d>(message.qdd[k].data());
   }
-  return {message.plan_id, message.t_ready, message.t_swing, message.t_swing_end,
-          model::SampledTrajectory(message.dt, std::move(samples))};
+  return {message.plan_id,
+          message.t_ready,
+          message.t_swing,
+          message.t_swing_end,
+          model::SampledTrajectory(message.dt, std::move(samples)),
+          message.t_release,
+          message.flight_time,
+          Eigen::Map<const Eigen::Vector2d>(message.q_wrist)};
 }
 
 class ControllerNode : public messaging::Node {
@@ -36,13 +42,19 @@ class ControllerNode : public messaging::Node {
       : clock_(clock),
         realtime_(realtime),
         stale_limit_us_(static_cast<int64_t>(config.stale_limit * 1e6)),
-        controller_(model::Arm(experiment.arm, experiment.hand.payload), config),
+        controller_(model::Arm(experiment.arm, experiment.hand.payload),
+                    model::Hand(experiment.hand),
+                    experiment.ball,
+                    config),
         commands_(endpoint, messaging::kArmCommand),
         statuses_(endpoint, messaging::kControllerStatus) {
     endpoint.subscribe<swing_plan_t>(messaging::kSwingPlan,
                                      [this](const swing_plan_t& m) { takePlan(m); });
     endpoint.subscribe<throw_start_t>(messaging::kThrowStart, [this](const throw_start_t& m) {
       controller_.startThrow({m.plan_id, m.scene_id, m.start_utime});
+    });
+    endpoint.subscribe<grip_t>(messaging::kGrip, [this](const grip_t& m) {
+      controller_.correctFor(m.plan_id, m.scene_id, Eigen::Map<const Eigen::Vector3d>(m.p_HBall));
     });
     endpoint.subscribe<estop_t>(messaging::kEstop, [this](const estop_t& m) {
       controller_.stop("braked: ESTOP: " + m.reason);

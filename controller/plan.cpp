@@ -115,7 +115,8 @@ std::optional<std::string> limitFault(const model::Arm& arm, const Plan& plan) {
 
 bool operator==(const Plan& a, const Plan& b) {
   return a.id == b.id && a.t_ready == b.t_ready && a.t_swing == b.t_swing &&
-         a.t_swing_end == b.t_swing_end && a.trajectory == b.trajectory;
+         a.t_swing_end == b.t_swing_end && a.t_release == b.t_release &&
+         a.flight_time == b.flight_time && a.q_wrist == b.q_wrist && a.trajectory == b.trajectory;
 }
 
 std::optional<std::string> planFault(const model::Arm& arm, const Plan& plan) {

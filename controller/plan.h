@@ -16,6 +16,9 @@ struct Plan {
   double t_swing = 0;      ///< swing begins
   double t_swing_end = 0;  ///< follow-through begins
   model::SampledTrajectory trajectory;
+  double t_release = 0;                               ///< the ball leaves the hand
+  double flight_time = 0;                             ///< [s], until it is at the target
+  Eigen::Vector2d q_wrist = Eigen::Vector2d::Zero();  ///< [rad], roll and flexion in the swing
 };
 
 /// The same to the last digit.

@@ -22,7 +22,7 @@ double GripPreparation::closed(int64_t utime) const {
 }
 
 void GripPreparation::step(const HandSample& sample, double dt, double to_swing) {
-  feeling_.step(sample.q, sample.force, dt);
+  feeling_.step(sample, dt);
   if (closed(sample.utime) < settle_time_)
     settling_.step(sample.force, closed(sample.utime) < 0, dt);
   else
@@ -43,6 +43,7 @@ void GripPreparation::tryOpening(const HandSample& sample, double to_swing) {
   if (trialTime(sample.utime) >= trial_settings_.length()) {
     trying_ = false;
     dead_times_ = trial_.deadTimes();
+    feeling_ = {};  // the trial was no rest
   }
 }
 
@@ -52,8 +53,10 @@ void GripPreparation::apply(int64_t utime, model::JointTargets& targets) const {
     trial_.tell(trialTime(utime), targets);
 }
 
-std::optional<GripEstimate> GripPreparation::estimate() const {
-  return feeling_.estimate(hand_, ball_);
+std::optional<GripEstimate> GripPreparation::estimate(const Eigen::Vector3d& g_H) const {
+  if (trying_)
+    return {};
+  return feeling_.estimate(hand_, ball_, g_H);
 }
 
 }  // namespace fastball::hand_server

@@ -31,8 +31,8 @@ class GripPreparation {
 
   /// As GripSettling has it.
   model::GraspGeometry settled() const { return settling_.settled(); }
-  /// Nothing if the fingers cannot tell.
-  std::optional<GripEstimate> estimate() const;
+  /// Nothing if the fingers cannot tell, or are still trying. @param g_H gravity [m/s^2] in the hand frame.
+  std::optional<GripEstimate> estimate(const Eigen::Vector3d& g_H) const;
   /// How late the fingers obey; nothing if they were not tried or one did not move as it was told.
   const std::optional<DeadTimes>& deadTimes() const { return dead_times_; }
 

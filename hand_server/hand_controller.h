@@ -75,6 +75,8 @@ class HandController {
   std::optional<HandAnswer> answer(const HandSample& sample);
   /// What happened at the last new state, one at a time.
   std::optional<ReleaseEvent> takeEvent();
+  /// How the ball lies, of a plan that adapts: in the last 20 ms before it starts, and always the same.
+  std::optional<GripEstimate> gripBeforeStart() const;
 
   Phase phase() const { return phase_; }
   /// 0: none yet.
@@ -102,6 +104,7 @@ class HandController {
   void releaseWhenDue(const HandSample& sample);
   void beginRelease(const HandSample& sample);
   void prepareGrip(const HandSample& sample);
+  std::optional<GripEstimate> feelGrip(double plan_time) const;
   void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
@@ -130,6 +133,7 @@ class HandController {
   bool prepared_ = false;  ///< the swing has begun
   model::JointPath path_;
   std::optional<GripPreparation> preparation_;  ///< of run_
+  std::optional<GripEstimate> grip_at_rest_;    ///< before the plan starts
   std::optional<GripEstimate> grip_;            ///< before the swing
   model::ReleaseMotion release_;
   BallWatch ball_watch_;

@@ -22,6 +22,7 @@ struct HandSample {
   FingerForces force{};                              ///< [N], normal, mean over the tick before
   TangentialForces tangential{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
                               Eigen::Vector2d::Zero()};  ///< [N], mean over the tick before
+  model::HandVector tau = model::HandVector::Zero();     ///< [N m], of the drives
 };
 
 }  // namespace fastball::hand_server

@@ -46,6 +46,7 @@ class HandServerNode : public messaging::Node {
                     experiment.ball,
                     config),
         commands_(endpoint, messaging::kHandCommand),
+        grips_(endpoint, messaging::kGrip),
         releases_(endpoint, messaging::kRelease) {
     endpoint.subscribe<swing_plan_t>(messaging::kSwingPlan,
                                      [this](const swing_plan_t& m) { takePlan(m); });
@@ -133,6 +134,7 @@ class HandServerNode : public messaging::Node {
     HandSample sample{newest_.utime, newest_.scene_id, newest_.tick,
                       Eigen::Map<const model::HandVector>(newest_.q),
                       Eigen::Map<const model::HandVector>(newest_.qd)};
+    sample.tau = Eigen::Map<const model::HandVector>(newest_.tau);
     std::copy_n(newest_.f_normal, model::kFingers, sample.force.begin());
     for (int i = 0; i < model::kFingers; ++i)
       sample.tangential[i] = {newest_.f_tangential[i][0], newest_.f_tangential[i][1]};
@@ -149,9 +151,22 @@ class HandServerNode : public messaging::Node {
     std::copy_n(answer->tau.data(), model::kHandJoints, command_.tau);
     std::copy_n(answer->kp.data(), model::kHandJoints, command_.kp);
     std::copy_n(answer->kd.data(), model::kHandJoints, command_.kd);
+    if (const auto grip = controller_.gripBeforeStart())
+      say(*grip);
     commands_.publish(command_);
     while (const auto event = controller_.takeEvent())
       say(*event);
+  }
+
+  void say(const GripEstimate& grip) {
+    grip_t message{};
+    message.utime = newest_.utime;
+    message.plan_id = command_.plan_id;
+    message.scene_id = newest_.scene_id;
+    message.grip_force = grip.grip_force;
+    std::copy_n(grip.p_HBall.data(), 3, message.p_HBall);
+    message.youngs_modulus = grip.youngs_modulus;
+    grips_.publish(message);
   }
 
   void say(const ReleaseEvent& event) {
@@ -184,6 +199,7 @@ class HandServerNode : public messaging::Node {
   bool back_ = false;         ///< both were heard again since
   HandController controller_;
   messaging::Publisher<hand_command_t> commands_;
+  messaging::Publisher<grip_t> grips_;
   messaging::Publisher<release_t> releases_;
   hand_state_t newest_{};
   bool is_new_ = false;

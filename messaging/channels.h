@@ -33,6 +33,7 @@ inline constexpr Channel<estop_t> kEstop{"ESTOP", kControlBytes, false};
 inline constexpr Channel<plan_request_t> kPlanRequest{"PLAN_REQUEST", kControlBytes};
 inline constexpr Channel<swing_plan_t> kSwingPlan{"SWING_PLAN", kDatagramBytes};
 inline constexpr Channel<controller_status_t> kControllerStatus{"CONTROLLER_STATUS", kControlBytes};
+inline constexpr Channel<grip_t> kGrip{"GRIP", kControlBytes};
 inline constexpr Channel<release_t> kRelease{"RELEASE", kControlBytes};
 inline constexpr Channel<image_t> kCameraLeft{"CAMERA_LEFT", kDatagramBytes + 100};
 inline constexpr Channel<image_t> kCameraRight{"CAMERA_RIGHT", kDatagramBytes + 100};

@@ -53,7 +53,7 @@ inline bool decodeWithoutTrailer(const MessageType& type,
 /// is none of them: a stop must work from anyone, also from one who has lost the key.
 inline bool isCommandChannel(std::string_view channel) {
   for (const char* command : {kArmCommand.name, kHandCommand.name, kSwingPlan.name,
-                              kPlanRequest.name, kThrowStart.name, kScene.name}) {
+                              kPlanRequest.name, kThrowStart.name, kScene.name, kGrip.name}) {
     if (channel == command)
       return true;
   }

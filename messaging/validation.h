@@ -29,6 +29,7 @@ std::optional<std::string> fault(const estop_t& message);
 std::optional<std::string> fault(const plan_request_t& message);
 std::optional<std::string> fault(const swing_plan_t& message);
 std::optional<std::string> fault(const controller_status_t& message);
+std::optional<std::string> fault(const grip_t& message);
 std::optional<std::string> fault(const release_t& message);
 std::optional<std::string> fault(const image_t& message);
 std::optional<std::string> fault(const camera_info_t& message);

@@ -14,6 +14,7 @@ constexpr double kFastestJoint = 1e4;     // [rad/s]
 constexpr double kHastiestJoint = 1e6;    // [rad/s^2]
 constexpr double kStrongestJoint = 1e6;   // [Nm]
 constexpr double kStrongestFinger = 1e6;  // [N]
+constexpr double kFarthestBall = 1;       // [m], in the hand
 
 template <class T>
 Check& target(Check& check, const T& m) {
@@ -178,6 +179,17 @@ std::optional<std::string> fault(const controller_status_t& m) {
       .finite("qd_error", m.qd_error)
       .finite("q_error_max", m.q_error_max)
       .sentence("message", m.message)
+      .fault();
+}
+
+std::optional<std::string> fault(const grip_t& m) {
+  Check check("GRIP");
+  check.stamp(m)
+      .atLeast("plan_id", m.plan_id, int64_t{1})
+      .atLeast("scene_id", m.scene_id, int64_t{1});
+  return check.positiveOrZero("grip_force", m.grip_force)
+      .bounded("p_HBall", m.p_HBall, kFarthestBall)
+      .positiveOrZero("youngs_modulus", m.youngs_modulus)
       .fault();
 }
 

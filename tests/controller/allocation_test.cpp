@@ -8,7 +8,7 @@ namespace fastball::controller {
 namespace {
 
 TEST(Allocation, NoneInALoop) {
-  ArmController controller(testArm(), loadConfig(kExperimentPath));
+  ArmController controller = testController();
   SimulatedArm robot{testArm(), kBack};
   ASSERT_TRUE(controller.offerPlan(swingPlan()));
   ASSERT_TRUE(controller.startThrow({1, 1, 600'000}));

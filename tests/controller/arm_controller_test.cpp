@@ -40,7 +40,7 @@ class Throw : public testing::Test {
     return last;
   }
 
-  ArmController controller_{testArm(), loadConfig(kExperimentPath)};
+  ArmController controller_ = testController();
   SimulatedArm robot_{testArm(), kBack};
   int64_t scene_ = 1, tick_ = 0, utime_ = kSceneUs;
 };
@@ -81,7 +81,7 @@ TEST_F(Throw, TheSameStateAgainGetsTheSameAnswerAndChangesNothing) {
   }
   // A twin that hears nothing twice ends at the same place, bit for bit.
   run(700);
-  ArmController twin(testArm(), loadConfig(kExperimentPath));
+  ArmController twin = testController();
   SimulatedArm robot{testArm(), kBack};
   twin.offerPlan(swingPlan());
   twin.startThrow({1, 1, kStartUs});

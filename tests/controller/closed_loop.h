@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,11 @@ inline const config::Experiment& experiment() {
 
 inline model::Arm testArm() {
   return model::Arm(experiment().arm, experiment().hand.payload);
+}
+
+inline ArmController testController() {
+  return {testArm(), model::Hand(experiment().hand), experiment().ball,
+          loadConfig(kExperimentPath)};
 }
 
 /// The arm with its friction, held torque over each tick, integrated at 0.1 ms (semi-implicit Euler).
@@ -54,13 +60,21 @@ inline std::vector<model::ArmMotion> quintic(const Eigen::Vector4d& from,
 inline const Eigen::Vector4d kBack{-0.6, 1.3, 0.0, 1.9};  ///< [rad], where the swing below begins
 inline const Eigen::Vector4d kFront{0.4, 1.2, 0.9, 0.5};  ///< [rad], where it ends
 
-/// Rests 0.1 s, swings at almost full speed from kBack to kFront in 0.8 s, and rests 0.1 s.
-inline Plan swingPlan(int64_t id = 1) {
-  std::vector<model::ArmMotion> samples(10, model::ArmMotion{kBack});
+/// Rests for `t_swing` [s], swings at almost full speed from kBack to kFront in 0.8 s, and rests 0.1 s.
+inline Plan swingPlan(int64_t id = 1, double t_swing = 0.1) {
+  std::vector<model::ArmMotion> samples(static_cast<std::size_t>(std::lround(100 * t_swing)),
+                                        model::ArmMotion{kBack});
   const auto swing = quintic(kBack, kFront, 0.8);
   samples.insert(samples.end(), swing.begin(), swing.end());
   samples.resize(samples.size() + 10, model::ArmMotion{kFront});
-  return {id, 0.05, 0.1, 0.9, model::SampledTrajectory(0.01, std::move(samples))};
+  return {id,
+          t_swing / 2,
+          t_swing,
+          t_swing + 0.8,
+          model::SampledTrajectory(0.01, std::move(samples)),
+          t_swing + 0.5,
+          0.6,
+          {0.1, -0.2}};
 }
 
 }  // namespace fastball::controller

@@ -77,7 +77,7 @@ TEST_F(ControllerProcess, OutlivesHostileBytes) {
     bytes.resize(random() % 2000);
     for (uint8_t& byte : bytes)
       byte = static_cast<uint8_t>(random());
-    for (const char* channel : {"ARM_STATE", "SWING_PLAN", "THROW_START", "ESTOP"})
+    for (const char* channel : {"ARM_STATE", "SWING_PLAN", "THROW_START", "GRIP", "ESTOP"})
       peer_.publishBytes(channel, bytes.data(), bytes.size());
   }
   arm_state_t not_finite = stateMessage(1, 1, robot_.q, robot_.qd);

@@ -17,17 +17,19 @@ int64_t pauseUs(uint8_t pause) {
 
 const std::vector<std::string>& allChannels() {
   static const std::vector<std::string> channels = {
-      "ARM_COMMAND", "ARM_STATE",    "BALL_OBSERVATION",  "BALL_TRACK",    "CAMERA_INFO",
-      "CAMERA_LEFT", "CAMERA_RIGHT", "CONTROLLER_STATUS", "ESTOP",         "HAND_COMMAND",
-      "HAND_STATE",  "HEARTBEAT",    "LANDING",           "LOGGER_STATUS", "PLAN_REQUEST",
-      "RELEASE",     "SCENE",        "SIM_TRUTH",         "SWING_PLAN",    "THROW_START"};
+      "ARM_COMMAND", "ARM_STATE",   "BALL_OBSERVATION", "BALL_TRACK",
+      "CAMERA_INFO", "CAMERA_LEFT", "CAMERA_RIGHT",     "CONTROLLER_STATUS",
+      "ESTOP",       "GRIP",        "HAND_COMMAND",     "HAND_STATE",
+      "HEARTBEAT",   "LANDING",     "LOGGER_STATUS",    "PLAN_REQUEST",
+      "RELEASE",     "SCENE",       "SIM_TRUTH",        "SWING_PLAN",
+      "THROW_START"};
   return channels;
 }
 
 const std::vector<std::string>& channelsOf(const std::string& target) {
   static const std::map<std::string, std::vector<std::string>> heard = {
       {"planner", {"PLAN_REQUEST"}},
-      {"controller", {"ARM_STATE", "ESTOP", "SWING_PLAN", "THROW_START"}},
+      {"controller", {"ARM_STATE", "ESTOP", "GRIP", "SWING_PLAN", "THROW_START"}},
       {"hand_server", {"ARM_STATE", "ESTOP", "HAND_STATE", "SWING_PLAN", "THROW_START"}},
       {"sim_bullet", {"ARM_COMMAND", "BALL_OBSERVATION", "HAND_COMMAND", "HEARTBEAT", "SCENE"}},
       {"vision_tracker", {"CAMERA_INFO", "CAMERA_LEFT", "CAMERA_RIGHT", "PLAN_REQUEST", "SCENE"}},

@@ -134,6 +134,7 @@ class Recording {
       whole_plan_ = said(kSwingPlan.name, m);
     });
     keep(e, kControllerStatus);
+    keep(e, kGrip);
     keep(e, kRelease);
     keep(e, kSimTruth);
     keep(e, kBallObservation);

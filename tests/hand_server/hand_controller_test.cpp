@@ -78,6 +78,36 @@ TEST_F(HandThrow, InTheReleaseTheThumbOpensAndTheOtherFingersStay) {
   EXPECT_EQ(hand_.qd[model::kProximalThumb], 0);
 }
 
+TEST_F(HandThrow, HowTheBallLiesIsSaidAlikeInTheLastTicksBeforeAPlanThatAdaptsStarts) {
+  HandPlan plan = throwPlan();
+  plan.adapts = true;
+  ASSERT_TRUE(controller_.offerPlan(plan));
+  ASSERT_TRUE(controller_.startThrow({1, 1, kStartUs}));
+  std::vector<int64_t> ticks;
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i < 800; ++i) {
+    tick();
+    if (const auto grip = controller_.gripBeforeStart()) {
+      ticks.push_back(tick_ - 1);
+      places.push_back(grip->p_HBall);
+    }
+  }
+  ASSERT_EQ(ticks.size(), 20U);
+  EXPECT_EQ(ticks.front(), 580);
+  EXPECT_EQ(ticks.back(), 599);
+  for (const Eigen::Vector3d& p_HBall : places)
+    EXPECT_EQ(p_HBall, places.front());
+  EXPECT_EQ(places.front().z(), experiment().hand.p_HBall.z()) << "this hand measures no torques";
+}
+
+TEST_F(HandThrow, HowTheBallLiesIsNotSaidOfOtherPlans) {
+  arm();
+  for (int i = 0; i < 800; ++i) {
+    tick();
+    EXPECT_FALSE(controller_.gripBeforeStart());
+  }
+}
+
 TEST_F(HandThrow, ReleaseAndDepartureAreSaidOnceEach) {
   arm();
   run(1106);

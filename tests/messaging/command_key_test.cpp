@@ -237,8 +237,8 @@ TEST(CommandChannels, LeaveRoomForATrailerInOneFrame) {
 }
 
 TEST(CommandChannels, AreThoseThatMoveTheRobot) {
-  for (const char* channel :
-       {"ARM_COMMAND", "HAND_COMMAND", "SWING_PLAN", "PLAN_REQUEST", "THROW_START", "SCENE"})
+  for (const char* channel : {"ARM_COMMAND", "HAND_COMMAND", "SWING_PLAN", "PLAN_REQUEST",
+                              "THROW_START", "SCENE", "GRIP"})
     EXPECT_TRUE(isCommandChannel(channel)) << channel;
   for (const char* channel : {"ESTOP", "ARM_STATE", "HAND_STATE", "HEARTBEAT", "RELEASE",
                               "CAMERA_LEFT", "ARM_COMMAND2", "ARM", ""})

@@ -113,6 +113,17 @@ inline controller_status_t example() {
 }
 
 template <>
+inline grip_t example() {
+  grip_t m{};
+  m.plan_id = 1;
+  m.scene_id = 1;
+  m.grip_force = 6;
+  m.p_HBall[2] = 0.15;
+  m.youngs_modulus = 5e5;
+  return m;
+}
+
+template <>
 inline release_t example() {
   release_t m{};
   m.event = release_t::DEPARTED;

@@ -62,6 +62,9 @@ inline std::vector<double*> numbers(swing_plan_t& m) {
 inline std::vector<double*> numbers(controller_status_t& m) {
   return of(m.q_error, m.qd_error, m.q_error_max);
 }
+inline std::vector<double*> numbers(grip_t& m) {
+  return of(m.grip_force, m.p_HBall, m.youngs_modulus);
+}
 inline std::vector<double*> numbers(release_t& m) {
   return of(m.f_normal, m.grip_force, m.p_HBall, m.youngs_modulus, m.dead_time);
 }

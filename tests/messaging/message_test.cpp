@@ -60,6 +60,7 @@ using Types = ::testing::Types<arm_state_t,
                                plan_request_t,
                                swing_plan_t,
                                controller_status_t,
+                               grip_t,
                                release_t,
                                image_t,
                                camera_info_t,
@@ -184,6 +185,7 @@ TEST(ControlMessages, FitOneFrameAtTheirWorst) {
       worstSize(example<hand_state_t>()), worstSize(example<hand_command_t>()),
       worstSize(example<scene_t>()),      worstSize(example<throw_start_t>()),
       worstSize(example<release_t>()),    worstSize(example<ball_track_t>()),
+      worstSize(example<grip_t>()),
   };
   const auto add = [&](auto message, auto fill) {
     fill(message);

@@ -70,6 +70,23 @@ TEST(CampaignRuns, AKilledPartLosesItsOwnSetUpAlone) {
   EXPECT_EQ(folder.summary(), undisturbedSummary());
 }
 
+TEST(CampaignRuns, AHandThatFeelsTheBallHasTheArmMakeGoodWhatItIsOffItsPlace) {
+  const CampaignFolder folder;
+  const config::TemporaryFolder files;
+  const std::string errors =
+      files.write("grasp.yaml", "throw:\n  grasp_offset: {normal: 0.003, unit: m, reason: far}\n");
+  const Outcome run = fastball({"campaign", "--strategy", "robust,tactile", "--throws", "12",
+                                "--seed", "1", "--uncertainty", errors, "--folder", folder.path()});
+  ASSERT_EQ(run.exit_status, 0) << run.output;
+  const nlohmann::json strategies = folder.summary().at("strategies");
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto scatter = [&](const char* strategy) {
+      return strategies.at(strategy).at("sigma_mm").at(axis).get<double>();
+    };
+    EXPECT_LT(scatter("tactile"), 0.6 * scatter("robust")) << (axis == 0 ? "to the right" : "up");
+  }
+}
+
 TEST(CampaignRuns, NoSlurmHereIsSaidInOneSentence) {
   const CampaignFolder folder;
   const Outcome run =

@@ -75,7 +75,7 @@ TEST_F(RecordedThrow, EveryProcessSaysTheSameAgain) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> processes{
       {"planner", {"SWING_PLAN"}},
       {"controller", {"ARM_COMMAND", "CONTROLLER_STATUS"}},
-      {"hand", {"HAND_COMMAND", "RELEASE"}},
+      {"hand", {"HAND_COMMAND", "GRIP", "RELEASE"}},
       {"tracker", {"BALL_OBSERVATION", "BALL_TRACK", "LANDING"}}};
   for (const auto& [name, channels] : processes) {
     const Outcome rerun = fastball({"replay", log(), "--rerun", name});

@@ -31,7 +31,7 @@ std::set<std::string> subscriptions(MakeNode make_node) {
 TEST(Subscriptions, AreThoseOfTheDesign) {
   EXPECT_THAT(subscriptions(planner::makeNode), UnorderedElementsAre("PLAN_REQUEST"));
   EXPECT_THAT(subscriptions(controller::makeNode),
-              UnorderedElementsAre("SWING_PLAN", "THROW_START", "ARM_STATE", "ESTOP"));
+              UnorderedElementsAre("SWING_PLAN", "THROW_START", "ARM_STATE", "GRIP", "ESTOP"));
   EXPECT_THAT(
       subscriptions(hand_server::makeNode),
       UnorderedElementsAre("SWING_PLAN", "THROW_START", "ARM_STATE", "HAND_STATE", "ESTOP"));
