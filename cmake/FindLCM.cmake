@@ -1,11 +1,12 @@
-# Debian's liblcm-dev has no CMake package, and its pkg-config file needs glib's.
+# Debian's liblcm-dev has no CMake package.
 find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp)
 find_library(LCM_LIBRARY lcm)
 find_program(LCM_GEN lcm-gen)
-find_package(PkgConfig QUIET)
-if(PKG_CONFIG_FOUND)
-  execute_process(COMMAND ${PKG_CONFIG_EXECUTABLE} --modversion lcm OUTPUT_VARIABLE LCM_VERSION
-    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+# pkg-config itself would ask for glib's.
+get_filename_component(LCM_LIBRARY_DIR "${LCM_LIBRARY}" DIRECTORY)
+if(EXISTS ${LCM_LIBRARY_DIR}/pkgconfig/lcm.pc)
+  file(STRINGS ${LCM_LIBRARY_DIR}/pkgconfig/lcm.pc LCM_VERSION REGEX "^Version: ")
+  string(REPLACE "Version: " "" LCM_VERSION "${LCM_VERSION}")
 endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(LCM REQUIRED_VARS LCM_LIBRARY LCM_INCLUDE_DIR LCM_GEN)

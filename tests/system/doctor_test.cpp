@@ -32,6 +32,13 @@ TEST(Doctor, LooksAtEverythingAndItsStatusSaysWhetherSomethingIsBad) {
   }
 }
 
+TEST(Version, NamesEveryLibraryWithItsNumber) {
+  const Outcome outcome = fastball({"--version"});
+  EXPECT_EQ(outcome.exit_status, 0);
+  EXPECT_THAT(outcome.output, testing::ContainsRegex("LCM [0-9]+\\.[0-9]+"));
+  EXPECT_THAT(outcome.output, testing::Not(HasSubstr(" ,")));
+}
+
 TEST(Doctor, SaysHowToMakeARouteWhereThereIsNone) {
   if (std::system("unshare -n true 2>/dev/null") != 0)
     GTEST_SKIP() << "no private network namespace to be had here";
