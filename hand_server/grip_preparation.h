@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "hand_server/config.h"
@@ -8,6 +9,7 @@
 #include "hand_server/hand_plan.h"
 #include "hand_server/hand_sample.h"
 #include "hand_server/opening_trial.h"
+#include "model/arm.h"
 
 namespace fastball::hand_server {
 
@@ -16,14 +18,15 @@ namespace fastball::hand_server {
 class GripPreparation {
  public:
   /// @param since [us], when the fingers began to close.
-  GripPreparation(const PlannedGrasp& planned,
+  GripPreparation(std::shared_ptr<const PlannedGrasp> planned,
+                  const model::Arm& arm,
                   const model::Hand& hand,
                   const model::BallParameters& ball,
                   const HandServerConfig& config,
                   int64_t since);
 
-  /// Takes a state of the hand, dt [s] after the one before; @param to_swing [s], until the swing begins.
-  void step(const HandSample& sample, double dt, double to_swing);
+  /// Takes a state of the hand, dt [s] after the one before. @param t [s] of the plan, before its swing.
+  void step(const HandSample& sample, double dt, double t);
   /// The swing begins, or there will be none: the fingers hold.
   void end() { trying_ = false; }
   /// From the targets of the planned grasp to those of the state at utime [us].
@@ -31,17 +34,21 @@ class GripPreparation {
 
   /// As GripSettling has it.
   model::GraspGeometry settled() const { return settling_.settled(); }
-  /// Nothing if the fingers cannot tell, or are still trying. @param g_H gravity [m/s^2] in the hand frame.
-  std::optional<GripEstimate> estimate(const Eigen::Vector3d& g_H) const;
+  /// As hand and arm rest where the plan has the arm at t [s]. Nothing if the fingers cannot tell, or are still trying.
+  std::optional<GripEstimate> estimate(double t) const;
+  /// Of a plan that adapts, from 20 ms before it starts on: the first estimate that there was in them.
+  const std::optional<GripEstimate>& atRest() const { return at_rest_; }
   /// How late the fingers obey; nothing if they were not tried or one did not move as it was told.
   const std::optional<DeadTimes>& deadTimes() const { return dead_times_; }
 
  private:
-  void tryOpening(const HandSample& sample, double to_swing);
+  void tryOpening(const HandSample& sample, double t);
   /// [s], from when the fingers had closed.
   double closed(int64_t utime) const;
   double trialTime(int64_t utime) const { return closed(utime) - trial_begin_; }
 
+  std::shared_ptr<const PlannedGrasp> planned_;
+  model::Arm arm_;
   model::Hand hand_;
   model::BallParameters ball_;
   double grasp_time_ = 0, settle_time_ = 0;
@@ -55,6 +62,7 @@ class GripPreparation {
   OpeningTrial trial_;
   GripFeeling feeling_;
   std::optional<DeadTimes> dead_times_;
+  std::optional<GripEstimate> at_rest_;
 };
 
 }  // namespace fastball::hand_server

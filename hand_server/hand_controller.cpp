@@ -24,9 +24,6 @@ int64_t microseconds(double seconds) {
   return std::llround(seconds * 1e6);
 }
 
-/// [s] before a plan starts, in which the hand says how the ball lies: 20 ticks, of which one must be heard.
-constexpr double kGripTime = 0.02;
-
 /// A relaxed wrist and fingers apart.
 HandVector openPosture(const model::Hand& hand, double distance) {
   return hand.posture(0, 0, {distance, distance, distance});
@@ -178,9 +175,8 @@ void HandController::beginThrow(const HandSample& sample) {
   X_TH_ = hand_.X_TH(run_->plan.q_wrist[0], run_->plan.q_wrist[1]);
   path_ = model::JointPath(sample.q, run_->q, sample.utime, config_.grasp_time);
   timing_.beginThrow(run_, order.start_utime, X_TH_);
-  grip_at_rest_.reset();
   grip_.reset();
-  preparation_.emplace(*run_, hand_, ball_, config_, sample.utime);
+  preparation_.emplace(run_, arm_, hand_, ball_, config_, sample.utime);
 }
 
 void HandController::releaseWhenDue(const HandSample& sample) {
@@ -217,35 +213,26 @@ void HandController::beginRelease(const HandSample& sample) {
 
 /// Until the swing; says once, when it begins, if the thumb does not feel the grip it should have.
 void HandController::prepareGrip(const HandSample& sample) {
-  const double to_swing = run_->plan.t_swing - timing_.planTime(sample.utime);
+  const double t = timing_.planTime(sample.utime);
   if (prepared_)
     return;
-  if (to_swing > 0) {
-    preparation_->step(sample, 1e-6 * static_cast<double>(sample.utime - last_.utime), to_swing);
+  if (t < run_->plan.t_swing) {
+    preparation_->step(sample, 1e-6 * static_cast<double>(sample.utime - last_.utime), t);
     timing_.feel(preparation_->deadTimes());
-    const double t = timing_.planTime(sample.utime);
-    if (run_->plan.adapts && !grip_at_rest_ && t >= -kGripTime && t < 0)
-      grip_at_rest_ = feelGrip(t);
     return;
   }
   prepared_ = true;
   preparation_->end();
-  grip_ = feelGrip(run_->plan.t_swing);
+  grip_ = preparation_->estimate(run_->plan.t_swing);
   if (sample.force[model::kThumb] < config_.grip_share * run_->plan.grip_force) {
     notice_ = fmt::format("the ball is not gripped: the thumb presses with {:.3g} N of {:.3g} N",
                           sample.force[model::kThumb], run_->plan.grip_force);
   }
 }
 
-/// With hand and arm at rest where the plan has the arm at t [s].
-std::optional<GripEstimate> HandController::feelGrip(double plan_time) const {
-  const Eigen::Matrix3d R_WH = arm_.X_WT(run_->plan.arm.at(plan_time).q).linear() * X_TH_.linear();
-  return preparation_->estimate(-arm_.parameters().gravity * R_WH.transpose().col(2));
-}
-
 std::optional<GripEstimate> HandController::gripBeforeStart() const {
-  return grip_at_rest_ && !kept_ && timing_.planTime(last_.utime) < 0 ? grip_at_rest_
-                                                                      : std::nullopt;
+  const bool before = preparation_ && !kept_ && timing_.planTime(last_.utime) < 0;
+  return before ? preparation_->atRest() : std::nullopt;
 }
 
 /// Says once, during the swing, if the ball slips between the fingers.

@@ -104,7 +104,6 @@ class HandController {
   void releaseWhenDue(const HandSample& sample);
   void beginRelease(const HandSample& sample);
   void prepareGrip(const HandSample& sample);
-  std::optional<GripEstimate> feelGrip(double plan_time) const;
   void watchSlip(const HandSample& sample);
   void watchBall(const HandSample& sample);
   void command(const HandSample& sample);
@@ -133,7 +132,6 @@ class HandController {
   bool prepared_ = false;  ///< the swing has begun
   model::JointPath path_;
   std::optional<GripPreparation> preparation_;  ///< of run_
-  std::optional<GripEstimate> grip_at_rest_;    ///< before the plan starts
   std::optional<GripEstimate> grip_;            ///< before the swing
   model::ReleaseMotion release_;
   BallWatch ball_watch_;
