@@ -14,9 +14,7 @@ constexpr double kLeastForce = 0.2;  // [N], of a finger that holds the ball
 constexpr double kSoftest = 2e4;     // [Pa], of flexible foam
 constexpr double kHardest = 1e8;     // [Pa], beyond it the fingers give way, not the ball
 constexpr double kFarthest = 0.03;   // [m], from the hand's axis
-// From the planned place [m]; a hand that says no torques would be 25 mm off.
-constexpr double kFarthestOut = 0.015;
-constexpr double kExact = 1e-9;  // [m]
+constexpr double kExact = 1e-9;      // [m]
 constexpr int kMostSteps = 20;
 
 /// The ball's centre and how it gives: x, y [m] and 1/sqrt(E) [Pa^-1/2], to which a deformation is about proportional.
@@ -70,8 +68,10 @@ void GripFeeling::step(const HandSample& sample, double dt) {
 }
 
 /// z of the ball's centre [m]. At rest each distal joint's torque is that of the force on the ball, linear in z, and of the
-/// phalanx' weight; least squares over the fingers. As planned where the torques make no sense: not every hand measures them.
+/// phalanx' weight; least squares over the fingers. As planned where that is where the palm would carry the ball too and push
+/// it off in the throw, or where it makes no sense: not every hand measures torques.
 double GripFeeling::placeAlongFingers(const model::Hand& hand,
+                                      const model::BallParameters& ball,
                                       const Eigen::Vector2d& across,
                                       const Eigen::Vector3d& g_H) const {
   const double nominal = hand.parameters().p_HBall.z();
@@ -94,8 +94,9 @@ double GripFeeling::placeAlongFingers(const model::Hand& hand,
     slope_error += slope * (tau_[model::Hand::proximalJoint(finger) + 1] - held);
     slope_slope += slope * slope;
   }
-  const double out = slope_error / slope_slope;
-  return std::abs(out) < kFarthestOut ? nominal + out : nominal;
+  const double z = nominal + slope_error / slope_slope;
+  const bool clear = z > hand.parameters().palm_distance + ball.radius && z < nominal + kFarthest;
+  return clear ? z : nominal;
 }
 
 std::optional<GripEstimate> GripFeeling::estimate(const model::Hand& hand,
@@ -112,7 +113,7 @@ std::optional<GripEstimate> GripFeeling::estimate(const model::Hand& hand,
     if (!found)
       return {};
     if (found->error.cwiseAbs().maxCoeff() < kExact) {
-      const double z = placeAlongFingers(hand, x.head<2>(), g_H);
+      const double z = placeAlongFingers(hand, ball, x.head<2>(), g_H);
       return GripEstimate{force_[model::kThumb], {x[0], x[1], z}, 1 / (x[2] * x[2])};
     }
     x -= found->slope.partialPivLu().solve(found->error);

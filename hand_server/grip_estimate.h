@@ -34,6 +34,7 @@ class GripFeeling {
 
  private:
   double placeAlongFingers(const model::Hand& hand,
+                           const model::BallParameters& ball,
                            const Eigen::Vector2d& across,
                            const Eigen::Vector3d& g_H) const;
 

@@ -20,7 +20,7 @@ constexpr double kLongestReversal = 10;
 bool movesRobot(const std::string& channel) {
   static const std::set<std::string> kCommands{
       messaging::kArmCommand.name, messaging::kHandCommand.name, messaging::kThrowStart.name,
-      messaging::kScene.name, messaging::kGrip.name, messaging::kEstop.name};
+      messaging::kScene.name,      messaging::kGrip.name,        messaging::kEstop.name};
   return kCommands.count(channel) != 0;
 }
 
