@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 #include "logger/channel_filter.h"
 #include "logger/run_record.h"
@@ -18,6 +20,8 @@ constexpr int64_t kStatusPeriodUs = 1'000'000;
 constexpr int64_t kWatchPeriodUs = 100'000;
 /// So long without a drop, and dropping has ended: a slow disk drops now and then.
 constexpr int64_t kDropsEndUs = 2'000'000;
+/// At its end it looks so often, a millisecond apart, for the last messages.
+constexpr int kLastLooks = 500;
 
 std::string timeOfDay(int64_t utime) {
   const std::time_t seconds = utime / 1'000'000;
@@ -42,6 +46,8 @@ class LoggerNode : public messaging::Node {
         next_status_us_(clock.monotonicUs()) {
     endpoint.subscribeRaw(".*", [this](const std::string& channel, const void* data,
                                        std::size_t size, int64_t utime) {
+      if (channel == messaging::kLoggerStatus.name)
+        hearOwn(data, size);
       if (channel == messaging::kSelfTestChannel || !filter_.wants(channel))
         return;
       missing_ += gaps_.missingBefore(channel, data, size);
@@ -74,7 +80,10 @@ class LoggerNode : public messaging::Node {
 
   void shutDown() override {
     sayStatus();
-    while (endpoint_.drain() > 0) {  // what has arrived, the status above included
+    // LCM hands over what arrives in its order, but on a busy machine not at once: with this status, all said before it is there.
+    for (int look = 0; look < kLastLooks && own_status_us_ != said_status_us_; ++look) {
+      if (endpoint_.drain() == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     recorder_.stop();
     watch();
@@ -109,6 +118,12 @@ class LoggerNode : public messaging::Node {
     dropped_ = dropped;
   }
 
+  void hearOwn(const void* data, std::size_t size) {
+    logger_status_t status{};
+    if (status.decode(data, 0, static_cast<int>(size)) > 0 && status.utime == said_status_us_)
+      own_status_us_ = status.utime;
+  }
+
   std::string droppedInWords() const {
     std::string words;
     for (const auto& [channel, dropped] : recorder_.queue().dropped())
@@ -121,7 +136,7 @@ class LoggerNode : public messaging::Node {
     const auto written = recorder_.status();
     const int64_t dropped = recorder_.queue().droppedMessages();
     logger_status_t status{};
-    status.utime = clock_.wallUs();
+    status.utime = said_status_us_ = clock_.wallUs();
     status.path = written.files.back();
     status.messages = written.messages;
     status.bytes = written.bytes;
@@ -144,6 +159,7 @@ class LoggerNode : public messaging::Node {
   messaging::Publisher<logger_status_t> status_publisher_;
   int64_t next_watch_us_;
   int64_t next_status_us_;
+  int64_t said_status_us_ = 0, own_status_us_ = 0;  ///< utime of the last status said, and heard
   int64_t missing_ = 0;
   int64_t dropped_ = 0;
   int64_t last_drop_us_ = 0;

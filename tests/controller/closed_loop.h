@@ -46,7 +46,7 @@ inline std::vector<model::ArmMotion> quintic(const Eigen::Vector4d& from,
                                              const Eigen::Vector4d& to,
                                              double duration) {
   std::vector<model::ArmMotion> samples;
-  const int intervals = static_cast<int>(duration * 100 + 0.5);
+  const int intervals = static_cast<int>(std::lround(duration * 100));
   for (int k = 0; k <= intervals; ++k) {
     const double s = static_cast<double>(k) / intervals, s2 = s * s;
     const Eigen::Vector4d way = to - from;

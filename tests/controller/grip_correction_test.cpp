@@ -88,7 +88,7 @@ TEST(GripCorrection, IsTheSmallestThatDoes) {
 /// An arm in lockstep that has heard how the ball lies before its plan starts.
 class CorrectedThrow : public testing::Test {
  protected:
-  static constexpr int kStartTick = 600;
+  static constexpr int64_t kStartTick = 600;
 
   void SetUp() override {
     ASSERT_TRUE(controller_.offerPlan(kPlan));

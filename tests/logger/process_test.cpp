@@ -119,7 +119,7 @@ TEST_F(LoggerProcess, AKilledLoggerLosesATenthOfASecondAtMost) {
   int64_t least = INT64_MAX;
   for (int trial = 0; trial < 10 && least > 100'000; ++trial) {
     status_ = {};
-    start();
+    ASSERT_NO_FATAL_FAILURE(start());
     for (int i = 0; i < 400; ++i) {
       say(1);
       std::this_thread::sleep_for(1ms);
