@@ -11,6 +11,7 @@
 #include "logger/channel_filter.h"
 #include "logger/run_record.h"
 #include "logger/sequence_gaps.h"
+#include "messaging/wire_lengths.h"
 
 namespace fastball::logger {
 namespace {
@@ -119,8 +120,10 @@ class LoggerNode : public messaging::Node {
   }
 
   void hearOwn(const void* data, std::size_t size) {
+    const int bytes = static_cast<int>(size);
     logger_status_t status{};
-    if (status.decode(data, 0, static_cast<int>(size)) > 0 && status.utime == said_status_us_)
+    if (messaging::lengthsFit<logger_status_t>(data, bytes) &&
+        status.decode(data, 0, bytes) == bytes && status.utime == said_status_us_)
       own_status_us_ = status.utime;
   }
 
