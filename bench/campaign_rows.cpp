@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStrategy = "adaptive";
 constexpr int kSetUpThrows = 10;  // as by default
-constexpr int kThrows =
-    100;  // of each job: a campaign has thousands, beside which its start is nothing
+// Of each job: a campaign has thousands, beside which its start is nothing.
+constexpr int kThrows = 100;
 constexpr int kThrowsWithImages = 10;
 constexpr double kMinute = 60;  // [s]
 

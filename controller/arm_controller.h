@@ -77,8 +77,8 @@ class ArmController {
   /// @return false if it is refused; notice() says why.
   bool startThrow(const ThrowOrder& order);
   /// The hand has felt the ball of a throw at p_HBall [m]: the arm takes up the posture that makes good what that is off its
-  /// place, in the first `blend_time` of the plan, and keeps to it. Changes nothing once the plan has started, for another
-  /// throw, or where the swing begins sooner.
+  /// place (GripCorrection), no joint by more than `grip_correction_max`, in the first `blend_time` of the plan, and keeps to
+  /// it. Changes nothing once the plan has started, for another throw, or where the swing begins sooner.
   void correctFor(int64_t plan_id, int64_t scene_id, const Eigen::Vector3d& p_HBall);
   /// Brakes to rest and drops the plan.
   void stop(const std::string& reason);

@@ -13,7 +13,7 @@ constexpr double kAverage = 0.020;   // [s]
 constexpr double kLeastForce = 0.2;  // [N], of a finger that holds the ball
 constexpr double kSoftest = 2e4;     // [Pa], of flexible foam
 constexpr double kHardest = 1e8;     // [Pa], beyond it the fingers give way, not the ball
-constexpr double kFarthest = 0.03;   // [m], from the hand's axis
+constexpr double kFarthest = 0.03;   // [m], from the hand's axis; along it, from the planned place
 constexpr double kExact = 1e-9;      // [m]
 constexpr int kMostSteps = 20;
 
@@ -76,7 +76,7 @@ double GripFeeling::placeAlongFingers(const model::Hand& hand,
                                       const Eigen::Vector3d& g_H) const {
   const double nominal = hand.parameters().p_HBall.z();
   const Eigen::Vector3d centre(across.x(), across.y(), nominal);
-  const Eigen::Vector3d phalanx_weight = hand.parameters().finger_mass / 2 * g_H;
+  const Eigen::Vector3d phalanx_weight = hand.parameters().finger_mass / 2 * g_H;  // [N]
   double slope_error = 0, slope_slope = 0;
   for (const model::Finger finger : {model::kFingerA, model::kThumb, model::kFingerB}) {
     const model::Segment distal = hand.phalanges(finger, q_)[1];

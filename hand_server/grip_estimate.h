@@ -40,8 +40,8 @@ class GripFeeling {
 
   bool begun_ = false;
   model::HandVector q_ = model::HandVector::Zero();
-  model::HandVector tau_ = model::HandVector::Zero();
-  FingerForces force_{}, along_{};  ///< [N], normal and along z of H
+  model::HandVector tau_ = model::HandVector::Zero();  ///< [N m]
+  FingerForces force_{}, along_{};                     ///< [N], normal and along z of H
 };
 
 }  // namespace fastball::hand_server
